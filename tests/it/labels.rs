@@ -4,10 +4,11 @@
 mod pages;
 
 use drystone::analysis::Analysis;
-use drystone::drawing::{Anchor, Drawing, Group, Item, PagePoint, Segment, Text, text};
+use drystone::drawing::{Anchor, Drawing, Face, Group, Item, PagePoint, Segment, Text, text};
 use drystone::figure::{self, Options};
 use drystone::scene::BlockId;
 
+use crate::lines::contributed;
 use crate::pictures::{gallery, scene};
 
 /// An axis-parallel box: left, top, right, bottom.
@@ -164,6 +165,74 @@ pub(crate) const COLUMN: f64 = 84.0 / 25.4 * 96.0 / 0.8;
 
 /// The width of two columns, 174 mm.
 const TWO_COLUMNS: f64 = 174.0 / 25.4 * 96.0 / 0.8;
+
+/// Whether a text contains a name as a separate word.
+fn names(text: &str, name: &str) -> bool {
+    let apart = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    // A number is a name only at the end of a phrase or before a word that continues a sentence about a block. Before a
+    // unit or a noun it is an amount or a count.
+    let is_number = !name.contains(char::is_alphabetic);
+    let may_follow = |rest: &str| {
+        let word = rest.trim_start_matches([' ', '\u{a0}', '\u{202f}']);
+        let verbs = ["and ", "or ", "falls", "fall ", "is ", "are ", "at ", "in ", "on ", "under ", "with "];
+        word.is_empty()
+            || word.starts_with([',', '.', ';', ':', ')'])
+            || verbs.iter().any(|verb| word.starts_with(verb))
+    };
+    // Digits on both sides of a point form one number.
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let goes_on = |rest: &str| rest.starts_with('.') && digit(rest.chars().nth(1));
+    let began = |before: &str| before.ends_with('.') && digit(before.chars().rev().nth(1));
+    text.match_indices(name).any(|(at, _)| {
+        let (before, rest) = (&text[..at], &text[at + name.len()..]);
+        apart(before.chars().next_back())
+            && apart(rest.chars().next())
+            && (!is_number || may_follow(rest))
+            && !goes_on(rest)
+            && !began(before)
+    })
+}
+
+/// The words below a picture name no block that has no name in the picture. Titles of the author may name any block.
+#[test]
+fn blocks_that_the_words_below_a_frame_name_have_labels() {
+    let mut named = 0;
+    for (name, scene) in gallery().into_iter().chain(contributed()) {
+        let options = drystone::analysis::Options::default();
+        let analysis = Analysis::with(
+            &scene,
+            &match drystone::analysis::CapacityRequest::default_for(&scene) {
+                Some(request) => options.capacity(request),
+                None => options,
+            },
+        );
+        for width in [None, Some(COLUMN), Some(TWO_COLUMNS)] {
+            let mut options = Options::default();
+            options.width = width;
+            for kind in figure::Kind::ALL.into_iter().filter(|kind| *kind != figure::Kind::Freebody) {
+                let drawing = figure::draw(&analysis, kind, &options);
+                let what = format!("{name} {} {width:?}", kind.name());
+                let frames = classes(&drawing.items, &["frame"]);
+                assert_eq!(frames.len(), scene.frames().len(), "{what}");
+                for (frame, group) in scene.frames().iter().zip(frames) {
+                    let own = group.items.iter().filter_map(|item| match item {
+                        Item::Text(text) if text.face == Face::Sans => Some(text.words.as_str()),
+                        _ => None,
+                    });
+                    let below = own.collect::<Vec<&str>>().join(" ");
+                    let labels = classes(&group.items, &["name"]);
+                    let labels: Vec<String> = labels.into_iter().flat_map(texts).map(|text| text.words).collect();
+                    let blocks = frame.placed.iter().map(|id| &scene.blocks()[id.0].id);
+                    for id in blocks.filter(|id| names(&below, id) && !names(&frame.title, id)) {
+                        named += 1;
+                        assert!(labels.contains(id), "{what}: {id} of {below:?} has no label");
+                    }
+                }
+            }
+        }
+    }
+    assert!(named > 60, "{named} named");
+}
 
 #[test]
 fn a_figure_zoomed_to_a_block_names_it_and_draws_its_forces() {

@@ -55,6 +55,8 @@ pub(crate) struct Canvas<'a> {
     pub displaced: Vec<Option<Displacement>>,
     /// The words after the verdict, if the figure finds them while it draws.
     pub words: Option<Vec<String>>,
+    /// The blocks that these words mention.
+    pub mentioned: Vec<BlockId>,
     marks: Vec<Mark>,
     labels: Vec<Label>,
     notes: Vec<Rc<Key>>,
@@ -88,7 +90,7 @@ impl<'a> Canvas<'a> {
         let camera = Camera::new(view, PagePoint::new(0.0, 0.0), zoom);
         let structure = camera.rect(view);
         let (marks, labels, notes) = (Vec::new(), Vec::new(), Vec::new());
-        let (window, displaced, fills, words) = (None, Vec::new(), Vec::new(), None);
+        let (window, displaced, fills, words, mentioned) = (None, Vec::new(), Vec::new(), None, Vec::new());
         Canvas {
             analysis,
             number,
@@ -102,6 +104,7 @@ impl<'a> Canvas<'a> {
             window,
             displaced,
             words,
+            mentioned,
             marks,
             labels,
             notes,

@@ -12,10 +12,9 @@ use std::rc::Rc;
 
 use super::about::About;
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, along};
+use super::design::{ArrowSize, Key, Layer, Mark, along, moved_edge, small_block};
 use super::displacement::{Course, Displacement};
 use super::fall::Fall;
-use super::mechanism::{edge_colour, small_block};
 use super::option::Options;
 use super::placing::Label;
 use super::sheet::{Figure, Subject};
@@ -84,6 +83,7 @@ impl Figure for CarriedForces {
         stage::blocks(canvas);
         stage::held(canvas);
         stage::loads(canvas);
+        canvas.mentioned.extend(canvas.found().capacity.iter().map(|capacity| capacity.block));
         if let Some(plan) = Plan::new(canvas.analysis, canvas.number) {
             let before = canvas.number.checked_sub(1);
             if let Some(before) = before.and_then(|frame| Plan::new(canvas.analysis, frame)) {
@@ -192,7 +192,7 @@ fn earlier(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
 }
 
 fn area_key(canvas: &Canvas<'_>, plan: &Plan<'_>) -> Rc<Key> {
-    let (swatch, width) = small_block(canvas);
+    let (swatch, width) = small_block(canvas.look);
     let edge = Stroke::new(colour(canvas.theme()), canvas.mm(EDGE_WIDTHS.1));
     let symbol =
         vec![Path::filled(swatch.clone(), canvas.theme().safe).with_opacity(AREA_OPACITY), Path::stroked(swatch, edge)];
@@ -288,7 +288,7 @@ fn small_pictures(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
         let number = k + 1;
         let mark = Mark::new(Layer::Symbol, "mechanism", shapes).avoided(0.0);
         canvas.put(mark.titled(format!("How the structure begins to fall beyond edge {number}")));
-        let at = corner.moved(-0.5 * size, scale * view.height() / 2.0);
+        let at = corner.moved(-0.9 * size, scale * view.height() / 2.0);
         canvas.label(Label { bold: true, fixed: Some(at), ..Label::new(number.to_string(), ink, vec![at], 0) });
     }
 }
@@ -327,6 +327,6 @@ fn small_picture(canvas: &Canvas<'_>, window: &Window, moved: &[Option<Displacem
         Path::filled(ground, theme.ground.mixed(theme.page, 0.6)),
         Path::stroked(was, dashed),
         Path::filled(rest, theme.block).with_stroke(Stroke::new(theme.outline, line)),
-        Path::filled(goes, fill).with_stroke(Stroke::new(edge_colour(theme), line)),
+        Path::filled(goes, fill).with_stroke(Stroke::new(moved_edge(theme), line)),
     ]
 }

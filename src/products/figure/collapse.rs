@@ -1,5 +1,8 @@
 //! [`reason`]: describes a mechanism in words: which blocks turn or slide, and how many hinges there are.
 
+use core::cell::RefCell;
+use std::collections::BTreeSet;
+
 use super::fall::{Fall, Joint};
 use super::words::{counted, listed};
 use crate::mechanics::analysis::{Analysis, Motion, Verdict};
@@ -25,24 +28,36 @@ pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
 
 fn collapse(fall: &Fall<'_>) -> String {
     let bodies = bodies(fall);
-    if let [(_, sentence)] = &bodies[..] {
-        return sentence.clone();
+    if let [body] = &bodies[..] {
+        return body.sentence.clone();
     }
     let hinges = fall.joints.iter().filter(|j| j.hinge.is_some()).count();
     let slips = fall.joints.iter().filter(|j| j.slip != 0.0).count();
     let counts = [(hinges, "hinge"), (slips, "sliding interface")].into_iter().filter(|c| c.0 > 0);
     let counts: Vec<String> = counts.map(|(count, what)| counted(count, what)).collect();
     let how = if counts.is_empty() { String::new() } else { format!(" with {}", listed(&counts)) };
-    let moving: usize = bodies.iter().map(|(blocks, _)| blocks.len()).sum();
+    let moving: usize = bodies.iter().map(|body| body.blocks.len()).sum();
     let blocks = fall.scene.frames[fall.frame].placed.len();
     format!("{moving} of {blocks} blocks move as {} bodies{how}", bodies.len())
 }
 
-/// Returns the blocks of each rigid body that moves, with a sentence about its motion: `blocks 4 and 5 slide on block 3`.
-pub(crate) fn bodies(fall: &Fall<'_>) -> Vec<(Vec<BlockId>, String)> {
+/// A rigid body that moves.
+pub(crate) struct Body {
+    pub blocks: Vec<BlockId>,
+    /// A sentence about its motion: `blocks 4 and 5 slide on block 3`.
+    pub sentence: String,
+    /// The blocks that the sentence names.
+    pub mentioned: Vec<BlockId>,
+}
+
+/// Returns the rigid bodies that move.
+pub(crate) fn bodies(fall: &Fall<'_>) -> Vec<Body> {
     let bodies = fall.rigid_bodies();
-    let sentences = Sentences { fall, bodies: &bodies };
-    let one = |body: &Vec<Motion>| (body.iter().map(|m| m.block).collect(), sentences.body(body));
+    let one = |body: &Vec<Motion>| {
+        let sentences = Sentences { fall, bodies: &bodies, mentioned: RefCell::default() };
+        let sentence = sentences.body(body);
+        Body { blocks: body.iter().map(|m| m.block).collect(), sentence, mentioned: sentences.mentioned.into_inner() }
+    };
     bodies.iter().map(one).collect()
 }
 
@@ -50,6 +65,7 @@ pub(crate) fn bodies(fall: &Fall<'_>) -> Vec<(Vec<BlockId>, String)> {
 struct Sentences<'a> {
     fall: &'a Fall<'a>,
     bodies: &'a [Vec<Motion>],
+    mentioned: RefCell<Vec<BlockId>>,
 }
 
 impl Sentences<'_> {
@@ -57,6 +73,9 @@ impl Sentences<'_> {
     fn body(&self, body: &[Motion]) -> String {
         let scene = self.fall.scene;
         let names: Vec<String> = body.iter().map(|m| scene.blocks[m.block.0].id.clone()).collect();
+        if names.len() <= MAX_NAMED_BLOCKS {
+            self.mentioned.borrow_mut().extend(body.iter().map(|m| m.block));
+        }
         let subject = match names.len() {
             1 => format!("block{NO_BREAK}{}", names[0]),
             n if n <= MAX_NAMED_BLOCKS => format!("blocks {}", listed(&names)),
@@ -134,12 +153,13 @@ impl Sentences<'_> {
             others.retain(|other| !self.moves(*other));
         }
         let ground = others.iter().any(|other| matches!(other, BodyId::Ground(_)));
-        let mut names: Vec<String> = Vec::new();
-        for other in others {
-            let name = self.fall.scene.name(other);
-            if matches!(other, BodyId::Block(_)) && !names.iter().any(|known| *known == name) {
-                names.push(name.to_string());
-            }
+        let blocks = others.into_iter().filter_map(|other| if let BodyId::Block(id) = other { Some(id) } else { None });
+        let mut blocks: Vec<BlockId> = blocks.collect();
+        let mut known = BTreeSet::new();
+        blocks.retain(|block| known.insert(*block));
+        let names: Vec<String> = blocks.iter().map(|id| self.fall.scene.blocks[id.0].id.clone()).collect();
+        if names.len() <= MAX_NAMED_BLOCKS {
+            self.mentioned.borrow_mut().extend(blocks);
         }
         let blocks = match names.len() {
             0 => None,
@@ -159,7 +179,10 @@ impl Sentences<'_> {
     fn named(&self, body: BodyId) -> String {
         match body {
             BodyId::Ground(_) => "the ground".into(),
-            BodyId::Block(_) => format!("block{NO_BREAK}{}", self.fall.scene.name(body)),
+            BodyId::Block(block) => {
+                self.mentioned.borrow_mut().push(block);
+                format!("block{NO_BREAK}{}", self.fall.scene.name(body))
+            }
         }
     }
 

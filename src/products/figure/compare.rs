@@ -11,9 +11,8 @@ use super::about::About;
 use super::canvas::Canvas;
 use super::change::{ForceChange, count_in_words, noise, shared_forces};
 use super::description;
-use super::design::{Key, Layer, Look, Mark};
+use super::design::{Key, Layer, Look, Mark, small_block};
 use super::joint_forces::{JointForces, mark};
-use super::mechanism::small_block;
 use super::option::Options;
 use super::sheet::{Figure, View};
 use super::words::{force, listed, quantity};
@@ -54,6 +53,7 @@ impl Figure for Comparison {
 
     fn draw(&self, canvas: &mut Canvas<'_>) {
         outlines(canvas);
+        canvas.mentioned.extend(mentioned(canvas.analysis, canvas.number));
         let changes = changes(canvas.analysis, canvas.number).0;
         for change in &changes {
             previous(canvas, change);
@@ -113,7 +113,7 @@ fn outlines(canvas: &mut Canvas<'_>) {
         ("new", new, Stroke::new(ink, canvas.mm(0.55)), (14, new_words), "Blocks that are new"),
     ];
     for (class, ids, stroke, (rank, words), title) in all {
-        let (swatch, width) = small_block(canvas);
+        let (swatch, width) = small_block(canvas.look);
         let symbol = vec![Path::stroked(swatch, stroke.clone())];
         let key = Rc::new(Key { rank, words: words.into(), symbol, width });
         let mut outline = Outline::default();
@@ -160,6 +160,15 @@ fn rings(canvas: &mut Canvas<'_>, changes: &[ForceChange<'_>]) {
         let mark = Mark::new(Layer::Symbol, "change", vec![ring]).keyed(&key);
         canvas.put(mark.titled(format!("Between {pair}: {was} before, {is} now")).avoided(canvas.mm(0.1)));
     }
+}
+
+/// Returns the blocks that the words about a frame name.
+fn mentioned(analysis: &Analysis, frame: usize) -> Vec<BlockId> {
+    let [new, gone] = blocks(analysis, frame);
+    let name = |id: &BlockId| &analysis.scene.blocks[id.0].id;
+    let gone = gone.iter().copied().filter(|id| !new.iter().any(|other| name(other) == name(id)));
+    let lists = [new.clone(), gone.collect::<Vec<BlockId>>()];
+    lists.into_iter().filter(|ids| ids.len() <= MAX_NAMED_BLOCKS).flatten().collect()
 }
 
 /// Says in words what changed since the previous frame.

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::option::Options;
 use crate::mechanics::scene::Rgb;
-use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path};
+use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Theme};
 use crate::pictures::output::page_width;
 
 /// The size of small text on paper, mm: 6.6 pt.
@@ -173,4 +173,16 @@ impl ArrowSize {
         let [front, back] = [u, (-u.0, -u.1)].map(|u| self.corners(p, u));
         Outline::ring(front[1..6].iter().chain(&back[1..6]).copied())
     }
+}
+
+/// Returns the outline of a small block in the legend, and its width.
+pub(crate) fn small_block(look: Look) -> (Outline, f64) {
+    let (wide, half) = (look.mm(3.6), look.mm(1.1));
+    let corners = [(0.0, -half), (wide, -half), (wide, half), (0.0, half)];
+    (Outline::ring(corners.map(|(x, y)| PagePoint::new(x, y))), wide)
+}
+
+/// Returns the colour of the edges of displaced blocks.
+pub(crate) fn moved_edge(theme: &Theme) -> Colour {
+    theme.motion.mixed(theme.ink, 0.25)
 }

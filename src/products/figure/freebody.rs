@@ -245,7 +245,7 @@ impl<'a> Body<'a> {
             canvas.put(Mark::new(layer, "force", shapes).titled(arrow.title.clone()).avoided(clear));
             if let Some(symbol) = arrow.symbol.clone().filter(|_| names && number < MAX_NAMES) {
                 let ink = canvas.theme().ink;
-                let (anchors, away) = arrow.anchors(canvas);
+                let (anchors, away) = arrow.anchors();
                 let label = Label::new(symbol.stated(), ink, anchors, SYMBOL_RANK + u8::from(!arrow.missing));
                 canvas.label(Label { symbol: Some(symbol), away, ..label });
             }

@@ -55,8 +55,9 @@ pub(crate) fn slip_words(joints: &[Joint]) -> &'static str {
     }
 }
 
-/// Draws the hinges and slips of a collapse on the bodies, where these are drawn. `words` explain a hinge and a slip.
-pub(crate) fn draw(canvas: &mut Canvas<'_>, joints: &[Gives<'_>], words: [String; 2]) {
+/// Draws the hinges and slips of a collapse in a layer, on the bodies where these are drawn. `words` explain a hinge and
+/// a slip.
+pub(crate) fn draw(canvas: &mut Canvas<'_>, layer: Layer, joints: &[Gives<'_>], words: [String; 2]) {
     let [hinge_words, slip_words] = words;
     let start = PagePoint::new(0.0, 0.0);
     let symbol = ring(canvas, start.moved(canvas.mm(0.95), 0.0));
@@ -85,7 +86,7 @@ pub(crate) fn draw(canvas: &mut Canvas<'_>, joints: &[Gives<'_>], words: [String
                 ("slip", shapes, &slip_key, format!("{what} between {pair}"))
             }
         };
-        let mark = Mark::new(Layer::Symbol, class, shapes).titled(title).keyed(key);
+        let mark = Mark::new(layer, class, shapes).titled(title).keyed(key);
         canvas.put(mark.avoided(canvas.mm(0.15)));
     }
 }

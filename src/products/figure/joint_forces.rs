@@ -51,7 +51,7 @@ impl Figure for JointForces {
         stage::listed_contacts(canvas);
         joints(canvas);
         if !(canvas.look.large && weights(canvas)) {
-            canvas.note(70, "weights omitted");
+            canvas.note(70, "weights not drawn");
         }
         stage::robots(canvas);
         stage::loads(canvas);
@@ -403,7 +403,8 @@ pub(crate) fn collapse(canvas: &mut Canvas<'_>) {
     let at = if governing.at.is_empty() { String::new() } else { format!(" at {}", governing.at) };
     let joints = giving(canvas.scene(), found, governing.mechanism);
     if joints.len() <= MAX_COLLAPSE_MARKS {
-        gives::draw(canvas, &joints, [format!("hinge{at}"), format!("slides{at}")]);
+        // A ring below the mark of its force shows on both sides of it.
+        gives::draw(canvas, Layer::Stone, &joints, [format!("hinge{at}"), format!("slides{at}")]);
     }
 }
 

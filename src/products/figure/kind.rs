@@ -23,8 +23,8 @@ use crate::mechanics::analysis::{CapacityRequest, MarginKind, Sensitivity};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::style::ForceMarks;
 
-/// The largest number of blocks for which a figure of forces asks for all margins, and for only the factor on the loads
-/// and the tilt. The numbers count blocks, not seconds, so the same scene has the same figure on every machine.
+/// The largest number of blocks for which a figure of forces asks for all margins, and for the factor on the loads and
+/// the tilt. Figures of more blocks only ask for the factor on the loads. The numbers count blocks, not seconds, so the same scene has the same figure on every machine.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 const MAX_MARGIN_BLOCKS: [usize; 2] = [60, 120];
 
@@ -131,8 +131,8 @@ impl Kind {
         self.about().help
     }
 
-    /// Returns the margins that the line of the verdict gives if they are cheap: those of a figure of forces of one frame
-    /// of few blocks. The margins of more blocks would take far longer than the figure itself.
+    /// Returns the margins that the line of the verdict gives if they are cheap: those of a figure of one frame of few
+    /// blocks, and the factor on the loads. Other margins of many blocks would take far longer than the figure itself.
     #[cfg(any(feature = "cli", feature = "wasm"))]
     fn line_margins(self, scene: &Scene, options: &Options) -> Option<MarginKinds> {
         let [frame] = &scene.frames[..] else { return None };
@@ -144,6 +144,10 @@ impl Kind {
         match frame.placed.len() {
             count if count <= all => Some(MarginKinds::ALL),
             count if count <= main => Some(MarginKinds::new(&[MarginKind::LoadFactor, MarginKind::Tilt])),
+            // The factor on the loads takes about as long as one or two verdicts, whatever the number of blocks.
+            _ if scene.loads.iter().any(|load| frame.placed.contains(&load.block)) => {
+                Some(MarginKinds::new(&[MarginKind::LoadFactor]))
+            }
             _ => None,
         }
     }

@@ -10,11 +10,10 @@ use std::rc::Rc;
 
 use super::about::About;
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, around};
+use super::design::{ArrowSize, Key, Layer, Mark, around, moved_edge, small_block};
 use super::displacement::Course;
 use super::fall::Fall;
 use super::gives;
-use super::mechanism::{edge_colour, small_block};
 use super::option::Options;
 use super::placing::Label;
 use super::sheet::Figure;
@@ -69,7 +68,7 @@ impl Figure for CollapseMargin {
             let fall = Fall::with(analysis, frame, motions);
             ghosts(canvas, &fall);
             let words = ["hinge".to_owned(), gives::slip_words(&fall.joints).to_owned()];
-            gives::draw(canvas, &gives::giving(&fall), words);
+            gives::draw(canvas, Layer::Symbol, &gives::giving(&fall), words);
             gravity(canvas, *edge);
         }
         stage::names(canvas);
@@ -89,14 +88,14 @@ fn parameter(toward: Toward) -> Parameter {
 fn ghosts(canvas: &mut Canvas<'_>, fall: &Fall<'_>) {
     let unit = unit(fall.scene, canvas.options.zoom);
     let course = &canvas.own().courses.get_or_init(|| vec![Course::new(fall, unit)])[0];
-    let edge = Stroke::new(edge_colour(canvas.theme()), canvas.mm(0.24)).dashed([canvas.mm(0.9), canvas.mm(0.65)]);
+    let edge = Stroke::new(moved_edge(canvas.theme()), canvas.mm(0.24)).dashed([canvas.mm(0.9), canvas.mm(0.65)]);
     let mut outline = Outline::default();
     for (block, displacement) in fall.scene.blocks.iter().zip(course.at(1.0)) {
         if let Some(displacement) = displacement {
             outline.extend(canvas.camera.polygon(&displacement.polygon(&block.body.polygon)));
         }
     }
-    let (swatch, width) = small_block(canvas);
+    let (swatch, width) = small_block(canvas.look);
     let symbol = vec![Path::stroked(swatch, edge.clone())];
     let key = Rc::new(Key { rank: 10, words: "how it begins to fall".into(), symbol, width });
     let mark = Mark::new(Layer::Force, "ghosts", vec![Path::stroked(outline, edge)]).keyed(&key);

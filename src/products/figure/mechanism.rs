@@ -15,7 +15,7 @@ use super::about::About;
 use super::canvas::Canvas;
 use super::collapse;
 use super::description;
-use super::design::{Key, Layer, Mark};
+use super::design::{Key, Layer, Mark, moved_edge, small_block};
 use super::displacement::Course;
 use super::fall::{Fall, Joint};
 use super::gives;
@@ -26,7 +26,7 @@ use super::unit::unit;
 use super::words::quantity;
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, MarginKind, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId};
-use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
+use crate::pictures::drawing::{Outline, Path, Stroke};
 use crate::products::wording::margin::governing;
 
 /// Opacity of the fill of a displaced block.
@@ -78,29 +78,17 @@ impl Figure for Mechanism {
             let all: Vec<Joint> =
                 (0..analysis.frames.len()).flat_map(|frame| Fall::of(analysis, frame).joints).collect();
             let words = ["hinge".to_owned(), gives::slip_words(&all).to_owned()];
-            gives::draw(canvas, &gives::giving(&Fall::of(analysis, frame)), words);
+            gives::draw(canvas, Layer::Symbol, &gives::giving(&Fall::of(analysis, frame)), words);
         }
         stage::names(canvas);
     }
-}
-
-/// Returns the colour of the edges of displaced blocks.
-pub(crate) fn edge_colour(theme: &Theme) -> Colour {
-    theme.motion.mixed(theme.ink, 0.25)
-}
-
-/// Returns the outline of a small block in the legend, and its width.
-pub(crate) fn small_block(canvas: &Canvas<'_>) -> (Outline, f64) {
-    let (wide, half) = (canvas.mm(3.6), canvas.mm(1.1));
-    let corners = [(0.0, -half), (wide, -half), (wide, half), (0.0, half)];
-    (Outline::ring(corners.map(|(x, y)| PagePoint::new(x, y))), wide)
 }
 
 /// Draws dashed outlines of the moving blocks in their present positions.
 fn ghosts(canvas: &mut Canvas<'_>) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
     let stroke = Stroke::new(theme.faint, canvas.mm(0.16)).dashed([canvas.mm(0.6), canvas.mm(0.5)]);
-    let (swatch, width) = small_block(canvas);
+    let (swatch, width) = small_block(canvas.look);
     let symbol = vec![Path::stroked(swatch, stroke.clone())];
     let key = Rc::new(Key { rank: 10, words: "blocks now".into(), symbol, width });
     let mut outline = Outline::default();
@@ -116,17 +104,20 @@ fn ghosts(canvas: &mut Canvas<'_>) {
 /// Draws the moving blocks in their displaced positions.
 fn displaced(canvas: &mut Canvas<'_>) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
-    let edge = Stroke::new(edge_colour(theme), canvas.mm(if canvas.look.large { 0.26 } else { 0.2 }));
+    let edge = Stroke::new(moved_edge(theme), canvas.mm(if canvas.look.large { 0.26 } else { 0.2 }));
     let drawn = |outline: Outline| {
         let fill = Path::filled(outline.clone(), theme.motion).with_opacity(OPACITY);
         vec![fill, Path::stroked(outline, edge.clone())]
     };
-    let (swatch, width) = small_block(canvas);
+    let (swatch, width) = small_block(canvas.look);
     let words = "how they begin to move, enlarged".into();
     let key = Rc::new(Key { rank: 11, words, symbol: drawn(swatch), width });
     let bodies = collapse::bodies(&Fall::of(canvas.analysis, canvas.number));
     let sentences: BTreeMap<BlockId, &String> =
-        bodies.iter().flat_map(|(blocks, sentence)| blocks.iter().map(move |id| (*id, sentence))).collect();
+        bodies.iter().flat_map(|body| body.blocks.iter().map(|id| (*id, &body.sentence))).collect();
+    if let [body] = &bodies[..] {
+        canvas.mentioned.extend(&body.mentioned);
+    }
     for motion in &canvas.found().mechanism {
         if canvas.displacement(motion.block).is_none() {
             continue;

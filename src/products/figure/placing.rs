@@ -47,6 +47,9 @@ pub(crate) struct Label {
     /// Whether the text is the name of a block: it then only stands in this rectangle, inside the block, without a
     /// leader. All names of one rank are left out if too few of them have a place.
     pub inside: Option<PageRect>,
+    /// Whether a name stands beside the block, with a leader, if it has no place inside. The words below the picture
+    /// mention the block.
+    pub is_mentioned: bool,
     /// A mathematical symbol that is drawn instead of the words.
     pub symbol: Option<Symbol>,
 }
@@ -55,7 +58,7 @@ impl Label {
     /// Returns a label that may stand beside any of these points.
     pub fn new(words: String, colour: Colour, anchors: Vec<PagePoint>, rank: u8) -> Label {
         let (away, fixed, inside, symbol) = (None, None, None, None);
-        Label { words, bold: false, colour, anchors, rank, away, fixed, inside, symbol }
+        Label { words, bold: false, colour, anchors, rank, away, fixed, inside, is_mentioned: false, symbol }
     }
 
     /// Returns the width and the height of the ink, pixels. `size` is the font size in pixels.
@@ -178,11 +181,19 @@ struct Position {
 /// Places the labels, those of the least rank first. A label without a position is left out.
 pub(crate) fn labels(mut labels: Vec<Label>, drawn: &Surroundings, look: Look, options: &Options) -> PlacedLabels {
     labels.sort_by_key(|label| label.rank);
-    let (names, others): (Vec<Label>, Vec<Label>) = labels.into_iter().partition(|label| label.inside.is_some());
+    let (names, others): (Vec<Label>, Vec<Label>) =
+        labels.into_iter().partition(|label| label.inside.is_some() && !label.is_mentioned);
     let mut placed = PlacedLabels::default();
     let size = look.text * options.theme.sizes.amount;
-    for label in others {
+    for mut label in others {
         let (wide, high) = label.size(size);
+        if label.inside.is_some() {
+            if let Some(rect) = name_place(&label, (wide, 0.74 * size), drawn, &placed.rects, look) {
+                placed.put(&label, Position { cost: 0.0, rect, leader: None }, look, options);
+                continue;
+            }
+            label.inside = None;
+        }
         let size = (wide + look.mm(0.4), high + look.mm(0.3));
         if let Some(position) = search(&label, size, drawn, &placed.rects, look) {
             placed.put(&label, position, look, options);
@@ -214,7 +225,8 @@ impl PlacedLabels {
     fn put(&mut self, label: &Label, position: Position, look: Look, options: &Options) {
         let (rect, theme) = (position.rect, &options.theme);
         let size = look.text * theme.sizes.amount;
-        let class = if label.inside.is_some() || label.symbol.is_some() { "name" } else { "amount" };
+        let is_name = label.inside.is_some() || label.is_mentioned || label.symbol.is_some();
+        let class = if is_name { "name" } else { "amount" };
         let mut group = Group::with_class(class);
         if let Some(anchor) = position.leader {
             let from = nearest(rect, anchor);

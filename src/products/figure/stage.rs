@@ -178,19 +178,27 @@ pub(crate) fn seams(body: &Body, lattice: Option<Lattice>, camera: &Camera) -> O
     outline
 }
 
-/// Asks for the names of the blocks, inside them.
+/// Asks for the names of the blocks, inside them, and for the names of all blocks that the words below the picture
+/// mention.
 pub(crate) fn names(canvas: &mut Canvas<'_>) {
-    if !canvas.look.names || !canvas.options.labels || !canvas.options.names {
+    if !canvas.options.labels || !canvas.options.names {
         return;
     }
-    let theme = canvas.theme();
-    for (place, id) in canvas.frame().placed.iter().enumerate() {
-        let (block, fill) = (&canvas.scene().blocks[id.0], canvas.fill(place, *id));
+    let (theme, placed) = (canvas.theme(), &canvas.frame().placed);
+    let absent: Vec<BlockId> = canvas.mentioned.iter().copied().filter(|id| !placed.contains(id)).collect();
+    for (place, id) in placed.iter().chain(&absent).enumerate() {
+        let fill = if place < placed.len() { canvas.fill(place, *id) } else { theme.page };
+        let block = &canvas.scene().blocks[id.0];
         let at = vec![canvas.place_on(BodyId::Block(*id), block.body.polygon.centroid())];
         let polygon = &block.body.polygon;
         let bounds = canvas.displacement(*id).map_or(polygon.bounds(), |moved| moved.polygon(polygon).bounds());
         let inside = Some(canvas.camera.rect(bounds));
-        canvas.label(Label { inside, ..Label::new(block.id.clone(), theme.letters_on(fill, None), at, 90) });
+        let is_mentioned = canvas.mentioned.contains(id);
+        let rank = if is_mentioned { 4 } else { 90 };
+        if canvas.look.names || is_mentioned {
+            let label = Label::new(block.id.clone(), theme.letters_on(fill, None), at, rank);
+            canvas.label(Label { inside, is_mentioned, ..label });
+        }
     }
 }
 
@@ -215,8 +223,11 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
         _ => "loads".to_owned(),
     };
     let size = ArrowSize { length: canvas.mm(5.0), ..load_size(canvas) };
-    let symbol = hollow(canvas, size.outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink);
-    let key = Rc::new(Key { rank: LOAD_RANK, words, symbol: vec![symbol], width: canvas.mm(5.0) });
+    let mut symbol = vec![hollow(canvas, size.outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink)];
+    if loads.iter().any(|load| acts_inside(canvas, load)) {
+        symbol.push(Path::filled(Outline::circle(PagePoint::new(canvas.mm(5.0), 0.0), canvas.mm(0.5)), ink));
+    }
+    let key = Rc::new(Key { rank: LOAD_RANK, words, symbol, width: canvas.mm(5.5) });
     for load in loads {
         if load.force.norm() > 0.0 {
             one_load(canvas, load, scale, &key, load.force.norm() >= least);
@@ -237,6 +248,13 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
             amount(canvas, quantity(load.torque.abs(), units), ink, (vec![side], 0), Some((0.0, -1.0)));
         }
     }
+}
+
+/// True if a load acts inside its block, visibly away from its edges. A dot then marks the point.
+fn acts_inside(canvas: &Canvas<'_>, load: &Load) -> bool {
+    let polygon = &canvas.scene().blocks[load.block.0].body.polygon;
+    let deep = polygon.edges().all(|edge| canvas.camera.length(edge.distance(load.at)) > canvas.mm(0.6));
+    deep && polygon.contains(load.at)
 }
 
 fn load_size(canvas: &Canvas<'_>) -> ArrowSize {
@@ -261,9 +279,7 @@ fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>, has
     let tail = if ends { along(at, u, -length, 0.0) } else { at };
     let outline = ArrowSize { length, ..load_size(canvas) }.outline(tail, u);
     let mut shapes = vec![hollow(canvas, outline, ink)];
-    let polygon = &scene.blocks[load.block.0].body.polygon;
-    let deep = polygon.edges().all(|edge| canvas.camera.length(edge.distance(load.at)) > canvas.mm(0.6));
-    if deep && polygon.contains(load.at) {
+    if acts_inside(canvas, load) {
         shapes.push(Path::filled(Outline::circle(at, canvas.mm(0.5)), ink));
     }
     let title = format!("Load on block {}: {}", scene.name(BodyId::Block(load.block)), force(load.force, scene.units));

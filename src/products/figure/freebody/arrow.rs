@@ -38,8 +38,9 @@ const LEAST_MISSING_LENGTH: f64 = 3.8;
 pub(super) const NOISE: f64 = 1e-6;
 /// Width of the shaft of a missing force, as a multiple of the width of other shafts.
 const MISSING_WIDTH: f64 = 1.4;
-/// Radius and width of a torque arrow, mm.
+/// Radius and width of a torque arrow, and the distance of the arcs of several torques at one point, mm.
 const TORQUE_SIZES: (f64, f64) = (4.2, 0.45);
+const TORQUE_STEP: f64 = 1.8;
 /// A block whose diagonal is at least this long on the page, mm, has arrows of full length.
 const FULL_LENGTH_DIAGONAL: f64 = 56.0;
 
@@ -52,7 +53,8 @@ pub(super) struct Arrow {
     pub title: String,
     /// The tail of the arrow, or the centre of a torque arrow.
     pub at: PagePoint,
-    /// The unit vector from the tail to the tip on the page, and the length of the arrow in pixels.
+    /// The unit vector from the tail to the tip on the page, and the length of the arrow or the radius of a torque arrow
+    /// in pixels.
     pub u: (f64, f64),
     pub length: f64,
     /// The torque, N·m, anticlockwise positive; `None` for a straight arrow.
@@ -82,8 +84,8 @@ impl Arrow {
     pub(super) fn shapes(&self, canvas: &Canvas<'_>) -> Vec<Path> {
         let page = canvas.theme().page;
         if let Some(torque) = self.torque {
-            let (radius, width) = TORQUE_SIZES;
-            return stage::torque(canvas, self.at, torque, (radius, self.width * width), self.colour);
+            let sizes = (self.length / canvas.mm(1.0), self.width * TORQUE_SIZES.1);
+            return stage::torque(canvas, self.at, torque, sizes, self.colour);
         }
         let outline = size(canvas, self.length, if self.hollow { 1.5 } else { self.width }).outline(self.at, self.u);
         if self.hollow {
@@ -93,9 +95,9 @@ impl Arrow {
     }
 
     /// Returns the points beside which the name may stand, the best first, and the direction in which it stands best.
-    pub(super) fn anchors(&self, canvas: &Canvas<'_>) -> (Vec<PagePoint>, Option<(f64, f64)>) {
+    pub(super) fn anchors(&self) -> (Vec<PagePoint>, Option<(f64, f64)>) {
         if self.torque.is_some() {
-            let far = canvas.mm(TORQUE_SIZES.0);
+            let far = self.length;
             return (
                 [(1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)].map(|(x, y)| self.at.moved(far * x, far * y)).to_vec(),
                 None,
@@ -218,7 +220,13 @@ impl<'c, 'a> Arrows<'c, 'a> {
             };
             if force.torque != 0.0 {
                 if is_given || force.torque.abs() > NOISE * largest * edge {
-                    arrows.push(Arrow { torque: Some(force.torque), hollow: false, ..straight });
+                    let near = |other: &&Arrow| {
+                        other.torque.is_some()
+                            && libm::hypot(other.at.x - straight.at.x, other.at.y - straight.at.y) < self.canvas.mm(1.0)
+                    };
+                    let here = arrows.iter().filter(near).count() as f64;
+                    let length = self.canvas.mm(TORQUE_SIZES.0 + TORQUE_STEP * here);
+                    arrows.push(Arrow { torque: Some(force.torque), hollow: false, length, ..straight });
                 }
             } else if norm > 0.0 {
                 let length = if self.naming {

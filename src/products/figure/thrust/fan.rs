@@ -117,10 +117,21 @@ fn fan(canvas: &mut Canvas<'_>, chain: &Chain, before: usize, (pole, metres): (P
     // If all loads are vertical, the thrust H is the distance of the pole from the load line, at the scale of the
     // polygon.
     let thrust = quantity(chain.crown_thrust, scene.units.force());
-    label(canvas, format!("H = {thrust}"), pole, (0.0, 1.0), 5);
+    let lowest = vertices.iter().map(|vertex| vertex.y).fold(pole.y, f64::min);
+    label(canvas, format!("H = {thrust}"), Point::new(pole.x, lowest), (0.0, 1.0), 5);
+    // Numbers that would lie on each other are left out; those of the joints on the structure remain.
     let right = if vertices.iter().any(|vertex| vertex.x > pole.x) { 1.0 } else { -1.0 };
+    let apart = 1.1 * canvas.look.text * theme.sizes.amount;
+    let far = |a: &Point, b: &Point| canvas.camera.length((a - b).norm()) >= apart;
+    let (mut kept, last) = (Vec::new(), vertices.len() - 1);
     for (k, vertex) in vertices.iter().enumerate() {
-        label(canvas, (before + k + 1).to_string(), *vertex, (right, 0.0), 30);
+        let is_free = kept.last().is_none_or(|(_, other)| far(vertex, other));
+        if k == last || is_free && far(vertex, &vertices[last]) {
+            kept.push((before + k + 1, *vertex));
+        }
+    }
+    for (number, vertex) in kept {
+        label(canvas, number.to_string(), vertex, (right, 0.0), 30);
     }
 }
 

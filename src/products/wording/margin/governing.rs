@@ -79,10 +79,15 @@ fn friction_share(margin: &StatedMargin<'_>, found: &FrameAnalysis) -> f64 {
 fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> Option<(String, Option<&'a End>)> {
     let (low, high) = (margin.interval.low(), margin.interval.high());
     let value = |end: Option<&'a End>| Some((confirmed(end?)?, end));
+    // The nearer end, and its side if the other end is farther away.
     let nearest = || {
-        let sides = [value(low), value(high)].into_iter().flatten();
-        let sides = sides.map(|(value, end)| (value.abs(), end));
-        sides.min_by(|a, b| a.0.total_cmp(&b.0))
+        let sides = [(value(low), " to the left"), (value(high), " to the right")];
+        let sides = sides.into_iter().filter_map(|(end, side)| Some((end?.0.abs(), end?.1, side)));
+        let mut sides: Vec<(f64, Option<&'a End>, &str)> = sides.collect();
+        sides.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (near, end, side) = *sides.first()?;
+        let is_alike = sides.get(1).is_some_and(|other| down(other.0) == down(near));
+        Some((near, end, if is_alike { "" } else { side }))
     };
     match margin.parameter {
         Parameter::LoadFactor => {
@@ -90,12 +95,13 @@ fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> 
             Some((format!("carries {} × its {load}", down(factor)), end))
         }
         Parameter::Tilt => {
-            let (angle, end) = nearest()?;
-            Some((format!("falls at {}° of tilt", down(angle)), end))
+            let (angle, end, side) = nearest()?;
+            Some((format!("falls at {}° of tilt{side}", down(angle)), end))
         }
         Parameter::HorizontalLoad => {
-            let (share, end) = nearest()?;
-            Some((format!("falls at {} × its weight sideways", down(share)), end))
+            let (share, end, side) = nearest()?;
+            let side = if side.is_empty() { " sideways" } else { side };
+            Some((format!("falls at {} × its weight{side}", down(share)), end))
         }
         Parameter::Friction => {
             let (needed, end) = value(low).filter(|(needed, _)| *needed > 0.0)?;
