@@ -128,7 +128,7 @@ fn an_arch_from_a_cad_program_stands() {
     assert_eq!(touching(&imported.scene), 8 + 2 + 2 + 1);
     assert_eq!(verdict(&imported.scene), Verdict::Stable);
     let warned: Vec<&str> = remarks(&imported).iter().map(|r| r.1).collect();
-    assert_eq!(warned, ["a spline has no exact corners"]);
+    assert_eq!(warned, ["the lines do not close to a loop"], "an open spline");
     assert!(imported.notes[0].contains("0.001 m, because the drawing states millimetres"));
     // The layer LIMESTONE sets the density. The first voussoir weighs as much as a ninth of the half ring, minus the
     // segments that the chords cut off.

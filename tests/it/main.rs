@@ -14,6 +14,7 @@ mod bound;
 mod capacity;
 mod certificate;
 mod capacity_figure;
+mod brought;
 mod built;
 mod circle;
 mod claims;

@@ -51,9 +51,17 @@ pub(crate) struct Import {
     /// Unit of the drawing's coordinates [default: the unit that the drawing states, else m]
     #[arg(long, value_name = "UNIT", value_enum)]
     unit: Option<Unit>,
-    /// Name of a layer or element that is ground; may be given several times [default: names that begin with ground]
-    #[arg(long, value_name = "NAME")]
-    ground_layer: Vec<String>,
+    /// What is ground: a layer or element by its name, a body by its number or by a point X,Y in it, or below:Y for all
+    /// bodies below a height, in the unit of the drawing with y up; may be given several times [default: names that
+    /// begin with ground]
+    #[arg(long, alias = "ground-layer", value_name = "LAYER|N|X,Y|below:Y", allow_hyphen_values = true)]
+    ground: Vec<String>,
+    /// What is left out, such as a title block, given like --ground [default: names that begin with ignore or guide]
+    #[arg(long, value_name = "LAYER|N|X,Y|below:Y", allow_hyphen_values = true)]
+    ignore: Vec<String>,
+    /// Turn the drawing upside down, because its y axis points down, as in pictures
+    #[arg(long)]
+    flip_y: bool,
     /// Largest distance of a chord from its curve, in metres [default: a thousandth of the drawing's size]
     #[arg(long, value_name = "M")]
     flatten: Option<f64>,
@@ -114,6 +122,9 @@ impl Import {
                 for remark in &refusal.remarks {
                     terminal.notes(&remark_page("warning", &name, remark));
                 }
+                let mut page = Page::default();
+                refusal.notes.iter().for_each(|note| page.line(&format!("  {note}")));
+                terminal.notes(&page);
                 return Err(refused(&name, &refusal.problems));
             }
         };
@@ -205,7 +216,9 @@ impl Import {
                 Some(ScaleArg::Ratio(ratio)) => Some(ratio),
                 _ => None,
             },
-            ground_layers: self.ground_layer.clone(),
+            ground: self.ground.clone(),
+            ignore: self.ignore.clone(),
+            flip_y: self.flip_y,
             flatten: self.flatten,
             gap: self.gap,
             frame: self.frame.and_then(FrameChoice::number),

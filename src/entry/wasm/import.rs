@@ -28,7 +28,9 @@ fn read(given: &mut Given<'_, '_>) -> Options {
     Options {
         scale: given.number("scale"),
         ratio: given.number("ratio"),
-        ground_layers: given.list("ground_layers", |r, node, at| r.text(node, at)).unwrap_or_default(),
+        ground: [texts(given, "ground"), texts(given, "ground_layers")].concat(),
+        ignore: texts(given, "ignore"),
+        flip_y: given.flag("flip_y"),
         flatten: given.number("flatten"),
         gap: given.number("gap"),
         frame: given.whole("frame", [1, u32::MAX]).map(|number| number as usize - 1),
@@ -42,4 +44,9 @@ fn read(given: &mut Given<'_, '_>) -> Options {
             ..SceneFile::default()
         },
     }
+}
+
+/// Reads a list of texts; empty if the key is missing.
+fn texts(given: &mut Given<'_, '_>, key: &'static str) -> Vec<String> {
+    given.list(key, |r, node, at| r.text(node, at)).unwrap_or_default()
 }

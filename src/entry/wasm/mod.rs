@@ -139,8 +139,8 @@ pub fn problems(scene: &str) -> String {
 
 /// Turns a drawing into a scene, as `drystone import` does. `format` is svg, dxf, geojson, json or wkt. Returns the
 /// log of the import as JSON, with the text of the scene file under the key `scene`. `options` is a JSON object with
-/// the keys `scale`, `flatten`, `gap`, `ratio`, `ground_layers`, `frame` (counted from 1), `title`, `friction`,
-/// `material`, `density`, `thickness`, `kernel` and `gravity`.
+/// the keys `scale`, `flatten`, `gap`, `ratio`, `ground` (also called `ground_layers`), `ignore`, `flip_y`, `frame`
+/// (counted from 1), `title`, `friction`, `material`, `density`, `thickness`, `kernel` and `gravity`.
 ///
 /// # Errors
 /// Returns the elements of the drawing that prevent an import, or a message about an option that is not valid.

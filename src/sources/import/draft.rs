@@ -1,5 +1,6 @@
 //! [`Draft`]: the elements of a drawing in metres with y up, before curves are flattened and names are made unique.
 
+use super::affine::Affine;
 use super::subpath::Subpath;
 use crate::geometry::Point;
 
@@ -7,6 +8,8 @@ use crate::geometry::Point;
 #[derive(Debug, Default)]
 pub(super) struct Draft {
     pub(super) title: String,
+    /// The unit of the drawing in metres.
+    pub(super) unit: f64,
     pub(super) parts: Vec<Part>,
     /// Sentences that explain how the drawing was read.
     pub(super) notes: Vec<String>,
@@ -34,6 +37,8 @@ pub(super) struct Part {
     /// A description by which the user finds the element in the drawing.
     pub(super) element: String,
     pub(super) form: PartGeometry,
+    /// Outlines that cut this part, in metres with y up. Only what lies in all of them is part of the element.
+    pub(super) clips: Vec<Subpath>,
     pub(super) fill: Option<[u8; 3]>,
     pub(super) values: Values,
 }
@@ -60,7 +65,7 @@ pub(super) enum Role {
     Block,
     Ground,
     Robot,
-    /// The element is left out, because its name begins with `ignore` or `guide`.
+    /// The element is left out, because of its name or the option `--ignore`.
     Ignored,
 }
 
@@ -90,6 +95,19 @@ impl Role {
 }
 
 impl Draft {
+    /// Turns the drawing upside down: y becomes −y.
+    pub(super) fn flip(&mut self) {
+        let map = Affine::scale(1.0, -1.0);
+        for part in &mut self.parts {
+            match &mut part.form {
+                PartGeometry::Subpaths(subpaths, _) => {
+                    subpaths.iter_mut().for_each(|subpath| *subpath = subpath.mapped(&map));
+                }
+                PartGeometry::Point(at) => *at = map.point(*at),
+            }
+        }
+    }
+
     pub(super) fn remark(&mut self, element: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
         self.remarks.push(Remark { element: element.into(), message: message.into(), help: help.into() });
     }

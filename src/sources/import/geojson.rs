@@ -8,6 +8,10 @@ use super::naming::Naming;
 use super::subpath::Subpath;
 use crate::geometry::Point;
 
+/// The properties that can name a feature, the most important first. A point separates the keys of nested objects.
+pub(super) const NAME_KEYS: [&str; 8] =
+    ["name", "Name", "label", "class", "classification.name", "layer", "Layer", "id"];
+
 /// Reads a GeoJSON text. `scale` is in metres per unit. Coordinates that look like degrees are refused, unless the user
 /// gave the scale (`is_scale_given`).
 ///
@@ -54,8 +58,7 @@ impl Reader<'_> {
             "Feature" => {
                 let about = self.properties(object, at);
                 if about.kind == Some(Role::Ignored) {
-                    let note =
-                        format!("{} is left out: its name begins with ignore or guide", labelled(at, &about.name));
+                    let note = format!("{} is left out: {}", labelled(at, &about.name), self.naming.why_ignored());
                     self.draft.notes.push(note);
                     return;
                 }
@@ -119,11 +122,14 @@ impl Reader<'_> {
             Some(Value::Number(number)) => Some(number.to_string()),
             _ => None,
         };
-        let name = text(properties.get("id"))
-            .or_else(|| text(properties.get("name")))
-            .or_else(|| text(feature.get("id")))
-            .unwrap_or_default();
-        let mut about = Properties { kind: self.naming.role(&name), name, ..Properties::default() };
+        let value = |key: &str| match key.split_once('.') {
+            Some((outer, inner)) => text(properties.get(outer).and_then(|value| value.get(inner))),
+            None => text(properties.get(key)),
+        };
+        let names: Vec<String> = NAME_KEYS.iter().filter_map(|key| value(key)).chain(text(feature.get("id"))).collect();
+        let kind = names.iter().filter_map(|name| self.naming.role(name)).next();
+        let name = names.into_iter().next().unwrap_or_default();
+        let mut about = Properties { kind, name, ..Properties::default() };
         let word = properties.get("kind").and_then(Value::as_str);
         match word.map(str::to_ascii_lowercase).as_deref() {
             Some("block") => about.kind = Some(Role::Block),
@@ -189,6 +195,7 @@ impl Reader<'_> {
             name: about.name.clone(),
             element: labelled(at, &about.name),
             form,
+            clips: Vec::new(),
             fill: about.fill,
             values: about.values,
         });

@@ -17,6 +17,7 @@
 
 mod affine;
 mod limit;
+mod choice;
 mod degrees;
 mod draft;
 mod dxf;
@@ -43,6 +44,7 @@ pub use stone::{STONES, Stone};
 use crate::mechanics::scene::Scene;
 use crate::mechanics::scene::format::SceneFile;
 use crate::text::first_of;
+use choice::Chosen;
 use draft::{Draft, PartGeometry, Role};
 use naming::Naming;
 use outline::Outlines;
@@ -98,9 +100,15 @@ pub struct Options {
     /// Real lengths divided by drawn lengths, 50 for a drawing at 1:50. Default: 1. It multiplies `scale`, or the unit
     /// that the drawing states; a drawing that states no unit needs `scale` too.
     pub ratio: Option<f64>,
-    /// Names of additional layers and elements that are ground, in upper or lower case. Layers and elements whose
-    /// names begin with `ground` are always ground.
-    pub ground_layers: Vec<String>,
+    /// Additional ground. Each entry is the name of a layer or element in upper or lower case, the number of a body in
+    /// the drawing (from 1), a point `x,y` in a body, or `below:Y` for all bodies below a height. Lengths are in the
+    /// unit of the drawing with y up. Layers and elements whose names begin with `ground` are always ground.
+    pub ground: Vec<String>,
+    /// What is left out, written like `ground`. Layers and elements whose names begin with `ignore` or `guide` are
+    /// always left out.
+    pub ignore: Vec<String>,
+    /// Whether the drawing is turned upside down, because its y axis points down.
+    pub flip_y: bool,
     /// The largest distance of a chord from its curve, in metres. Default: 0.001 times the size of the drawing.
     pub flatten: Option<f64>,
     /// Edges within this distance, in metres, are moved so that they touch; 0 turns this off. Default: 0.001 times the
@@ -116,7 +124,9 @@ pub struct Options {
 impl Options {
     setters! {
         scene: SceneFile, "Title, friction, kernel, density, thickness and gravity of the scene.";
-        ground_layers: Vec<String>, "Names of layers and elements that are ground.";
+        ground: Vec<String>, "Names, numbers, points or heights of bodies that are ground.";
+        ignore: Vec<String>, "Names, numbers, points or heights of bodies that are left out.";
+        flip_y: bool, "Whether the drawing is turned upside down, because its y axis points down.";
     }
 
     optional_setters! {
@@ -166,6 +176,18 @@ pub struct DrawingProblems {
     pub problems: Vec<Remark>,
     /// Elements that were not imported.
     pub remarks: Vec<Remark>,
+    /// Sentences that explain how the drawing was read.
+    pub notes: Vec<String>,
+}
+
+impl DrawingProblems {
+    fn of(problems: Vec<Remark>) -> DrawingProblems {
+        DrawingProblems { problems, remarks: Vec::new(), notes: Vec::new() }
+    }
+
+    fn new(why: impl Into<String>) -> DrawingProblems {
+        DrawingProblems::of(vec![Remark { element: String::new(), message: why.into(), help: String::new() }])
+    }
 }
 
 /// Imports a drawing.
@@ -194,85 +216,68 @@ pub struct DrawingProblems {
 pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported, DrawingProblems> {
     let problems = option_problems(options);
     if !problems.is_empty() {
-        return Err(DrawingProblems { problems, remarks: Vec::new() });
+        return Err(DrawingProblems::of(problems));
     }
-    let refused = |why: String| DrawingProblems {
-        problems: vec![Remark { element: String::new(), message: why, help: String::new() }],
-        remarks: Vec::new(),
-    };
     if format != Format::Svg && options.frame.is_some() {
-        return Err(refused("--frame needs a figure by drystone; this drawing has no frames".into()));
+        return Err(DrawingProblems::new("--frame needs a figure by drystone; this drawing has no frames"));
     }
+    if options.flip_y && matches!(format, Format::Contacts | Format::Compas) {
+        return Err(DrawingProblems::new("--flip-y turns drawings upside down; this file is none"));
+    }
+    // Spreadsheets and databases write outlines as a column of well-known text.
+    let format = if format == Format::Contacts && wkt::is_table(text) { Format::Wkt } else { format };
     match format {
-        Format::Contacts => complete(contact_list::read(text, options)),
-        Format::Compas => complete(compas::read(text, options, &compas::PLANES)),
+        Format::Contacts => complete(contact_list::read(text, options)?),
+        Format::Compas => complete(compas::read(text, options, &compas::PLANES)?),
         _ => {
-            let draft = with_ground(text, format, options).map_err(refused)?;
-            build_scene(draft, options)
+            let naming = Naming::new(options, false);
+            let draft = read_draft(text, format, options, &naming).map_err(DrawingProblems::new)?;
+            let chosen = naming.choices().map_err(DrawingProblems::new)?;
+            let draft = with_guessed_ground(draft, &chosen, text, format, options).map_err(DrawingProblems::new)?;
+            build_scene(draft, &chosen, &naming.seen(), options)
         }
     }
 }
 
-/// Checks the scene of a contact list or of an assembly. Returns the problems of the list or assembly, or else of the
-/// scene, as an error.
-fn complete(read: Result<(SceneFile, Vec<String>), Vec<Remark>>) -> Result<Imported, DrawingProblems> {
-    let refused = |problems: Vec<Remark>| DrawingProblems { problems, remarks: Vec::new() };
-    let (scene, notes) = read.map_err(refused)?;
-    if let Err(problems) = Scene::from_json(&scene.to_json()) {
-        let remark = |p: &crate::mechanics::scene::Problem| Remark {
-            element: p.path.clone(),
-            message: p.message.clone(),
-            help: p.help.clone(),
-        };
-        return Err(refused(problems.list.iter().map(remark).collect()));
-    }
-    Ok(Imported { scene, notes, remarks: Vec::new(), snapped: Vec::new() })
+/// Checks the scene of a contact list or of an assembly. Returns its problems as an error.
+fn complete(imported: Imported) -> Result<Imported, DrawingProblems> {
+    let Err(problems) = Scene::from_json(&imported.scene.to_json()) else {
+        return Ok(imported);
+    };
+    let remark = |p: &crate::mechanics::scene::Problem| Remark {
+        element: p.path.clone(),
+        message: p.message.clone(),
+        help: p.help.clone(),
+    };
+    Err(DrawingProblems::of(problems.list.iter().map(remark).collect()))
 }
 
-/// Reads the drawing. If no element is ground, reads the drawing again with the rule that names such as "abutment" also
-/// make an element ground. If there is still no ground, adds a remark.
+/// If no element of `draft` is ground, and no value in `chosen` makes one ground, reads the drawing again with the rule
+/// that names such as "abutment" also make an element ground.
 ///
 /// # Errors
-/// Returns a message if the drawing cannot be read, or if the option for ground names a layer or element that does not
-/// exist.
-fn with_ground(text: &str, format: Format, options: &Options) -> Result<Draft, String> {
+/// Returns a message if the drawing cannot be read.
+fn with_guessed_ground(
+    draft: Draft,
+    chosen: &[Chosen<'_>],
+    text: &str,
+    format: Format,
+    options: &Options,
+) -> Result<Draft, String> {
     let has_ground = |draft: &Draft| draft.parts.iter().any(|p| p.kind == Role::Ground);
-    let naming = Naming::new(&options.ground_layers, false);
-    let mut draft = read_draft(text, format, options, &naming)?;
-    if let Some(missing) = naming.missing().first() {
-        let names = naming.seen();
-        let near = crate::text::nearest(missing, names.iter().map(String::as_str));
-        let help = match (near, names.is_empty()) {
-            (Some(near), _) => format!("did you mean `{near}`?"),
-            (None, true) => "nothing in the drawing has a name".into(),
-            (None, false) => format!("its names are {}", first_of(names, MAX_NAMES)),
-        };
-        return Err(format!("no layer or element is called `{missing}`; {help}"));
-    }
-    if has_ground(&draft) {
+    if has_ground(&draft) || chosen.iter().any(|c| c.role == Role::Ground) {
         return Ok(draft);
     }
-    let guess = Naming::new(&options.ground_layers, true);
-    let guessed = read_draft(text, format, options, &guess)?;
-    if has_ground(&guessed) {
-        draft = guessed;
-        draft.notes.push(format!(
-            "taken as ground by name: {}; nothing in the drawing has a name that begins with ground",
-            first_of(guess.made_ground(), MAX_NAMES)
-        ));
-    } else if draft.parts.iter().any(|p| p.kind == Role::Block) {
-        let names = naming.seen();
-        let help = if names.is_empty() {
-            "give the ground's layer or outline a name that begins with ground".into()
-        } else {
-            format!(
-                "give the name of its layer or outline with --ground-layer, or let it begin with ground; the drawing has {}",
-                first_of(names, MAX_NAMES)
-            )
-        };
-        draft.remark("", "no part of the drawing is ground, so nothing supports the blocks", help);
+    let guess = Naming::new(options, true);
+    let mut guessed = read_draft(text, format, options, &guess)?;
+    if !has_ground(&guessed) {
+        return Ok(draft);
     }
-    Ok(draft)
+    guessed.notes.push(format!(
+        "taken as ground by name: {}; nothing in the drawing has a name that begins with ground",
+        first_of(guess.guessed(), MAX_NAMES)
+    ));
+    Ok(guessed)
 }
 
 /// Reads the drawing into a draft, with the rules `naming` for names (step 1).
@@ -281,10 +286,11 @@ fn read_draft(text: &str, format: Format, options: &Options, naming: &Naming<'_>
     let scaled = |read: &dyn Fn(f64) -> Result<Draft, String>| {
         let (metres, note) = scale.of(None, "the drawing states no unit")?;
         let mut draft = read(metres)?;
+        draft.unit = metres;
         draft.notes.insert(0, note);
         Ok(draft)
     };
-    match format {
+    let mut draft = match format {
         Format::Svg => svg::read(text, scale, options.frame, naming),
         Format::Dxf => dxf::read(text, scale, naming),
         Format::GeoJson => {
@@ -293,7 +299,11 @@ fn read_draft(text: &str, format: Format, options: &Options, naming: &Naming<'_>
         }
         Format::Wkt => scaled(&|metres| Ok(wkt::read(text, metres, naming))),
         Format::Contacts | Format::Compas => Err("it is not a drawing".into()),
+    }?;
+    if options.flip_y {
+        draft.flip();
     }
+    Ok(draft)
 }
 
 /// Returns a problem for each option that is not a valid length or scale.
@@ -332,25 +342,31 @@ fn structure_problem(outlines: &Outlines) -> Option<Remark> {
 
 /// Makes a scene from a draft (steps 2 to 6): flattens curves, finds regions, snaps edges together, and checks the
 /// scene.
-fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingProblems> {
+fn build_scene(
+    mut draft: Draft,
+    chosen: &[Chosen<'_>],
+    names: &[String],
+    options: &Options,
+) -> Result<Imported, DrawingProblems> {
     let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(LENGTH_TOL * size);
     let close = options.gap.unwrap_or(LENGTH_TOL * size).min(LENGTH_TOL * size);
     if draft.parts.iter().any(|p| matches!(&p.form, PartGeometry::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(subpath::Subpath::has_curves))) {
-        draft.notes.push(format!("curves are replaced by chords, at most {} m from the curve", scene_file::short(flatten)));
+        draft.notes.push(format!("curves are replaced by chords, at most {} m from the curve", scale::short(flatten)));
     }
     let title = std::mem::take(&mut draft.title);
     let mut outlines = Outlines::new(&mut draft, flatten, close);
+    if let Err(why) = outlines.assign_roles(&mut draft, chosen, names) {
+        return Err(DrawingProblems { remarks: draft.remarks, notes: draft.notes, ..DrawingProblems::new(why) });
+    }
     if let Some(problem) = structure_problem(&outlines) {
-        return Err(DrawingProblems { problems: vec![problem], remarks: draft.remarks });
+        return Err(DrawingProblems { problems: vec![problem], remarks: draft.remarks, notes: Vec::new() });
     }
     let gap = options.gap.unwrap_or_else(|| (LENGTH_TOL * size).min(MAX_GAP_TO_THICKNESS * outlines.thinnest()));
     let names = name::unique_names(&outlines);
     let snapped = outlines.snap(&mut draft, &names, gap);
     if gap > 0.0 {
-        draft
-            .notes
-            .push(format!("edges within {} m of each other are moved so that they touch", scene_file::short(gap)));
+        draft.notes.push(format!("edges within {} m of each other are moved so that they touch", scale::short(gap)));
     }
     let scene = scene_file::scene(&outlines, &names, &mut draft, title, size, &options.scene);
     let text = scene.to_json();
@@ -364,6 +380,7 @@ fn build_scene(mut draft: Draft, options: &Options) -> Result<Imported, DrawingP
         Err(problems) => Err(DrawingProblems {
             problems: problems.list.iter().map(|p| outlines.located(p)).collect(),
             remarks: draft.remarks,
+            notes: Vec::new(),
         }),
     }
 }

@@ -3,6 +3,8 @@
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
+use super::Options;
+use super::choice::{Choice, Chosen};
 use super::draft::Role;
 
 /// Words that usually name the ground, in lower case. They are used only for drawings without other ground.
@@ -35,34 +37,54 @@ const MAX_KEPT_NAMES: usize = 1000;
 /// The rules that determine the roles of elements from their names.
 #[derive(Debug, Default)]
 pub(super) struct Naming<'o> {
-    /// Names of layers and elements that an option declares as ground.
-    pub(super) ground: &'o [String],
+    /// The values of `--ground` and `--ignore`, with the role that they give.
+    chosen: Vec<(Role, &'o str)>,
     /// Whether a name such as "abutment" makes an element ground.
-    pub(super) guess: bool,
-    /// The names that became ground because of `ground` or a guess.
-    made_ground: RefCell<BTreeSet<String>>,
+    guess: bool,
+    /// The indices of the values in `chosen` that are names in the drawing.
+    found: RefCell<BTreeSet<usize>>,
+    /// The names that became ground because of a guess.
+    guessed: RefCell<BTreeSet<String>>,
     seen: RefCell<BTreeSet<String>>,
 }
 
 impl<'o> Naming<'o> {
-    pub(super) fn new(ground: &'o [String], guess: bool) -> Naming<'o> {
-        Naming { ground, guess, ..Naming::default() }
+    pub(super) fn new(options: &'o Options, guess: bool) -> Naming<'o> {
+        let ground = options.ground.iter().map(|value| (Role::Ground, value.as_str()));
+        let ignored = options.ignore.iter().map(|value| (Role::Ignored, value.as_str()));
+        Naming { chosen: ground.chain(ignored).collect(), guess, ..Naming::default() }
     }
 
     /// Returns the role of an element with this name. `None` if no role follows from the name.
     pub(super) fn role(&self, name: &str) -> Option<Role> {
         let name = name.trim();
         keep(&self.seen, name);
-        if self.ground.iter().any(|g| same(g, name)) || (self.guess && is_ground_word(name)) {
-            keep(&self.made_ground, name);
-            return Some(Role::Ground);
+        let mut role = None;
+        for (i, (chosen, value)) in self.chosen.iter().enumerate() {
+            if same(value, name) {
+                self.found.borrow_mut().insert(i);
+                role = role.or(Some(*chosen));
+            }
         }
-        Role::from_name(name)
+        if role.is_none() && self.guess && is_ground_word(name) {
+            keep(&self.guessed, name);
+            role = Some(Role::Ground);
+        }
+        role.or_else(|| Role::from_name(name))
     }
 
-    /// Returns the names of elements that became ground because of an option or a guess, in alphabetical order.
-    pub(super) fn made_ground(&self) -> Vec<String> {
-        self.made_ground.borrow().iter().cloned().collect()
+    /// Returns the reason why elements are left out because of their names.
+    pub(super) fn why_ignored(&self) -> &'static str {
+        if self.chosen.iter().any(|(role, _)| *role == Role::Ignored) {
+            "its name begins with ignore or guide, or is given with --ignore"
+        } else {
+            "its name begins with ignore or guide"
+        }
+    }
+
+    /// Returns the names of elements that became ground because of a guess, in alphabetical order.
+    pub(super) fn guessed(&self) -> Vec<String> {
+        self.guessed.borrow().iter().cloned().collect()
     }
 
     /// Returns the names of elements and layers in the drawing, at most 1000, in alphabetical order.
@@ -70,11 +92,30 @@ impl<'o> Naming<'o> {
         self.seen.borrow().iter().cloned().collect()
     }
 
-    /// Returns the names in the option `ground` that no element or layer of the drawing has.
-    pub(super) fn missing(&self) -> Vec<&'o String> {
-        let made = self.made_ground.borrow();
-        let is_missing = |wanted: &&String| !made.iter().any(|name| same(wanted, name));
-        self.ground.iter().filter(is_missing).collect()
+    /// Returns the values of options that are not names in the drawing, but numbers, points or heights.
+    ///
+    /// # Errors
+    /// Returns a message if a value is neither a name in the drawing nor one of these.
+    pub(super) fn choices(&self) -> Result<Vec<Chosen<'o>>, String> {
+        let found = self.found.borrow();
+        let others = self.chosen.iter().enumerate().filter(|(i, _)| !found.contains(i));
+        others
+            .map(|(_, &(role, text))| match Choice::parse(text) {
+                Some(choice) => Ok(Chosen { role, text, choice }),
+                None => Err(self.unknown(text)),
+            })
+            .collect()
+    }
+
+    fn unknown(&self, name: &str) -> String {
+        let names = self.seen();
+        let near = crate::text::nearest(name, names.iter().map(String::as_str));
+        let help = match (near, names.is_empty()) {
+            (Some(near), _) => format!("did you mean `{near}`?"),
+            (None, true) => "nothing in the drawing has a name".into(),
+            (None, false) => format!("its names are {}", crate::text::first_of(names, super::MAX_NAMES)),
+        };
+        format!("no layer or element is called `{name}`; {help}")
     }
 }
 
@@ -102,18 +143,29 @@ mod tests {
 
     #[test]
     fn words_for_the_ground_are_guessed_on_request() {
-        let guess = Naming::new(&[], true);
+        let options = Options::default();
+        let guess = Naming::new(&options, true);
         for name in ["Abutments", "support_2", "Pier base left", "SOL", "Boden"] {
             assert_eq!(guess.role(name), Some(Role::Ground), "{name}");
         }
         for name in ["solid", "supporting", "pier", "stone", ""] {
             assert_eq!(guess.role(name), None, "{name}");
         }
-        assert_eq!(guess.made_ground().len(), 5);
+        assert_eq!(guess.guessed().len(), 5);
         assert_eq!(Naming::default().role("Abutments"), None);
-        let layers = ["Pfeiler".to_owned(), "Felsen".to_owned()];
-        let given = Naming::new(&layers, false);
-        assert_eq!(given.role("pfeiler "), Some(Role::Ground));
-        assert_eq!(given.missing(), [&layers[1]]);
+    }
+
+    #[test]
+    fn names_win_over_numbers() {
+        let options =
+            Options::default().ground(["Pfeiler", "3", "4"].map(String::from).to_vec()).ignore(vec!["below:2".into()]);
+        let given = Naming::new(&options, false);
+        assert_eq!((given.role("pfeiler "), given.role("3")), (Some(Role::Ground), Some(Role::Ground)));
+        let choices: Vec<&str> = given.choices().expect("numbers").iter().map(|c| c.text).collect();
+        assert_eq!(choices, ["4", "below:2"]);
+        let options = Options::default().ground(vec!["Felse".into()]);
+        let given = Naming::new(&options, false);
+        given.role("Felsen");
+        assert!(given.choices().expect_err("unknown").contains("did you mean `Felsen`?"));
     }
 }

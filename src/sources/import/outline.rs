@@ -1,15 +1,20 @@
 //! [`Outlines`]: the bodies of a drawing as polygons with holes, with flattened curves, and its robots as points.
 
+use super::choice::{self, Chosen};
 use super::draft::{Draft, Part, PartGeometry, Role, Values};
 use super::region::regions;
 use super::subpath::Subpath;
-use super::{Remark, limit};
-use crate::geometry::snap::{Corner, Rings, polygon};
-use crate::geometry::{Bounds, Point, Polygon, PolygonError};
+use super::{MAX_NAMES, Remark, limit};
+use crate::geometry::snap::{Corner, Rings, area, polygon};
+use crate::geometry::{Bounds, Point, Polygon, PolygonError, cross};
 use crate::mechanics::scene::Problem;
+use crate::text::first_of;
 
 /// The largest coordinate in metres; scene files have the same limit.
 const MAX_COORDINATE: f64 = 1e12;
+
+/// The warning about a drawing without ground.
+pub(super) const NO_GROUND: &str = "no part of the drawing is ground, so nothing supports the blocks";
 
 /// The bodies and robots of a drawing.
 pub(super) struct Outlines {
@@ -81,14 +86,64 @@ impl Outlines {
                         draft.remark(&part.element, message, "break it apart into several paths");
                         continue;
                     }
+                    let rings = clipped(draft, &part, rings, flatten);
                     for rings in regions(rings, rule) {
                         outlines.add(draft, &part, rings);
                     }
                 }
             }
         }
-        outlines.bodies.sort_by_key(|b| b.kind == Role::Block);
         outlines
+    }
+
+    /// Gives the bodies that `values` choose their role, and sorts the bodies: the ground, then the blocks. If there are
+    /// blocks but no ground, adds a list of the bodies to the notes. `names` are the names in the drawing.
+    ///
+    /// # Errors
+    /// Returns a message if a value chooses no body.
+    pub(super) fn assign_roles(
+        &mut self,
+        draft: &mut Draft,
+        values: &[Chosen<'_>],
+        names: &[String],
+    ) -> Result<(), String> {
+        let is_ground = |body: &Body| body.kind == Role::Ground;
+        if values.is_empty() && (self.bodies.is_empty() || self.bodies.iter().any(is_ground)) {
+            self.bodies.sort_by_key(|b| b.kind == Role::Block);
+            return Ok(());
+        }
+        let polygons: Vec<Option<Polygon>> = self.bodies.iter().map(Body::polygon).collect();
+        let list = choice::list(self.bodies.iter().map(|b| b.element.as_str()), &polygons, draft.unit);
+        let roles = match choice::roles(values, &polygons, draft.unit) {
+            Ok(roles) => roles,
+            Err(why) => {
+                draft.notes.extend(list);
+                return Err(why);
+            }
+        };
+        for (body, role) in self.bodies.iter_mut().zip(roles) {
+            body.kind = role.unwrap_or(body.kind);
+        }
+        let left_out = self.bodies.iter().filter(|b| b.kind == Role::Ignored).count();
+        if left_out > 0 {
+            draft.notes.push(format!("left out with --ignore: {left_out} of {} bodies", self.bodies.len()));
+            self.bodies.retain(|b| b.kind != Role::Ignored);
+        }
+        if !self.bodies.iter().any(is_ground) && !self.bodies.is_empty() {
+            let names = if names.is_empty() {
+                String::new()
+            } else {
+                format!("; the drawing has {}", first_of(names.to_vec(), MAX_NAMES))
+            };
+            draft.remark(
+                "",
+                NO_GROUND,
+                format!("choose it with --ground: a name, a number below, a point x,y in it, or below:Y{names}"),
+            );
+            draft.notes.extend(list);
+        }
+        self.bodies.sort_by_key(|b| b.kind == Role::Block);
+        Ok(())
     }
 
     fn add(&mut self, draft: &mut Draft, part: &Part, rings: Rings) {
@@ -190,6 +245,55 @@ fn closed_rings(draft: &mut Draft, part: &Part, subpaths: &[Subpath], flatten: f
         draft.remark(&part.element, message, help);
     } else if rings.is_empty() {
         draft.remark(&part.element, "it has no outline; left out", "");
+    }
+    rings
+}
+
+/// Returns the parts of the rings inside all clip paths of `part`. A clip path that is not convex, and does not contain
+/// the rings, is reported and not used.
+fn clipped(draft: &mut Draft, part: &Part, mut rings: Vec<Vec<Corner>>, flatten: f64) -> Vec<Vec<Corner>> {
+    for clip in &part.clips {
+        let Some(mut window) = clip.flattened(flatten, 0.0) else { continue };
+        if area(&window) < 0.0 {
+            window.reverse();
+        }
+        let edges: Vec<[Point; 2]> =
+            (0..window.len()).map(|i| [window[i].at, window[(i + 1) % window.len()].at]).collect();
+        let left = |[a, b]: [Point; 2], p: Point| cross(b - a, p - a) / (b - a).norm();
+        let slack = 1e-9 * Bounds::from_points(window.iter().map(|c| c.at)).map_or(0.0, Bounds::diagonal);
+        let is_inside = |p: Point| edges.iter().all(|edge| left(*edge, p) >= -slack);
+        if rings.iter().flatten().all(|corner| is_inside(corner.at)) {
+            continue;
+        }
+        if !window.iter().all(|corner| is_inside(corner.at)) {
+            let window = polygon(&vec![window]).ok();
+            if !window.is_some_and(|w| rings.iter().flatten().all(|corner| w.contains(corner.at))) {
+                let why = "its clip path is not convex; the whole outline is imported";
+                draft.remark(&part.element, why, "cut the outline itself");
+            }
+            continue;
+        }
+        // Sutherland and Hodgman 1974: cut with one edge of the window after the other.
+        for edge in edges {
+            for ring in &mut rings {
+                let mut kept: Vec<Corner> = Vec::new();
+                for (a, b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+                    let (from, to) = (left(edge, a.at), left(edge, b.at));
+                    if from >= -slack {
+                        kept.push(*a);
+                    }
+                    if (from > slack && to < -slack) || (from < -slack && to > slack) {
+                        let at = a.at + (b.at - a.at) * (from / (from - to));
+                        kept.push(Corner { at, curved: a.curved && from < 0.0 });
+                    }
+                }
+                *ring = kept;
+            }
+            rings.retain(|ring| ring.len() > 2);
+        }
+        if rings.is_empty() {
+            draft.remark(&part.element, "its clip path hides it; left out", "");
+        }
     }
     rings
 }

@@ -1,7 +1,5 @@
 //! [`Scale`]: computes the length of a unit of the drawing in metres.
 
-use super::scene_file::six_digits;
-
 /// The options for the size of the drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Scale {
@@ -41,4 +39,18 @@ impl Scale {
             )),
         }
     }
+}
+
+/// Returns a length as text with three significant digits.
+pub(super) fn short(x: f64) -> String {
+    rounded(format!("{x:.2e}"))
+}
+
+/// Returns a scale as text with six significant digits.
+pub(super) fn six_digits(x: f64) -> String {
+    rounded(format!("{x:.5e}"))
+}
+
+fn rounded(text: String) -> String {
+    text.parse::<f64>().map_or(text, |x| x.to_string())
 }

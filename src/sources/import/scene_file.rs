@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::draft::{Draft, Role};
 use super::name::Names;
 use super::outline::{Body, Outlines};
+use super::scale::short;
 use crate::geometry::{Bounds, Point, Polygon};
 use crate::mechanics::scene::format::{BlockEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile};
 
@@ -115,20 +116,6 @@ fn material(fill: [u8; 3]) -> String {
     format!("fill-{}", &hex(fill)[1..])
 }
 
-/// Returns a length as text with three significant digits.
-pub(super) fn short(x: f64) -> String {
-    rounded(format!("{x:.2e}"))
-}
-
-/// Returns a scale as text with six significant digits.
-pub(super) fn six_digits(x: f64) -> String {
-    rounded(format!("{x:.5e}"))
-}
-
-fn rounded(text: String) -> String {
-    text.parse::<f64>().map_or(text, |x| x.to_string())
-}
-
 /// Rounds coordinates to multiples of a power of ten.
 struct Rounding {
     /// Rounded coordinates times this factor are whole numbers; 0 if coordinates are not rounded.
@@ -172,6 +159,5 @@ mod tests {
         assert_eq!(round.number(123.456_789_012), 123.456_789_012);
         assert_eq!(Rounding::new(0.0).number(1.0 / 3.0), 1.0 / 3.0);
         assert_eq!(Rounding::new(1e5).number(1.5e9), 1.5e9);
-        assert_eq!(short(0.001_234_9), "0.00123");
     }
 }

@@ -84,8 +84,8 @@ fn everything_that_cannot_be_imported_is_reported_at_once() {
         .map(|r| (r.element.as_str(), r.message.split([';', ':']).next().unwrap_or("")))
         .collect();
     let expected = [
-        ("rect \"good\"", "clip paths are not supported"),
         ("rect \"good\"", "masks are not supported"),
+        ("rect \"good\"", "its clip path is not a single outline"),
         ("rect \"good\"", "a gradient or pattern cannot become a material"),
         ("<path> in line 3", "its path data cannot be read (unexpected end of stream)"),
         ("text \"words\"", "a text cannot become a block"),
@@ -93,10 +93,10 @@ fn everything_that_cannot_be_imported_is_reported_at_once() {
         ("rect \"none\"", "its width is 0"),
         ("use \"lost\"", "it copies #nowhere, which does not exist"),
         ("<use> in line 7", "it copies itself"),
-        ("", "no part of the drawing is ground, so nothing supports the blocks"),
         ("path \"open\"", "it is open"),
         ("polygon \"bow\"", "its outline crosses or touches itself at (11.0000, 8.0000) m"),
         ("polygon \"flat\"", "it encloses no area"),
+        ("", "no part of the drawing is ground, so nothing supports the blocks"),
         ("circle \"robot\"", "its centre (19, 1) m is in no block, so the robot holds nothing"),
     ];
     assert_eq!(described, expected);

@@ -1,6 +1,8 @@
-//! Reads well-known text into a [`Draft`]: one geometry per line, with an optional name before it.
+//! Reads well-known text into a [`Draft`]: one geometry per line, with an optional name before it, or a table with a
+//! column of well-known text.
 
 use super::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
+use super::geojson::NAME_KEYS;
 use super::naming::Naming;
 use super::subpath::Subpath;
 use crate::geometry::Point;
@@ -8,47 +10,105 @@ use crate::geometry::Point;
 /// The largest nesting depth of collections; deeper ones could overflow the stack.
 const MAX_DEPTH: usize = 50;
 
-/// Reads lines of well-known text (WKT). `scale` is in metres per unit. Lines that begin with `#` are comments, and
-/// lines that cannot be read are reported.
+/// The headings of a column of well-known text.
+const GEOMETRY_KEYS: [&str; 5] = ["wkt", "geometry", "geom", "the_geom", "wkt_geom"];
+
+/// Reads lines of well-known text (WKT), or a table with a column of it. `scale` is in metres per unit. Lines that begin
+/// with `#` are comments, and lines that cannot be read are reported.
 pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
     let mut draft = Draft::default();
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if let Some((separator, columns)) = table(text) {
+        let rows = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).skip(1);
+        for (number, line) in rows {
+            let cells = cells(line, separator);
+            let cell = |key: &str| {
+                let column = columns.iter().position(|c| c == key)?;
+                cells.get(column).map(|c| c.trim()).filter(|c| !c.is_empty())
+            };
+            let names: Vec<&str> = NAME_KEYS.iter().filter_map(|key| cell(key)).collect();
+            let geometry = GEOMETRY_KEYS.iter().find_map(|key| {
+                let column = columns.iter().position(|c| c.eq_ignore_ascii_case(key))?;
+                cells.get(column).map(String::as_str)
+            });
+            let number_in = |key: &str| cell(key)?.parse().ok();
+            let values =
+                Values { friction: number_in("friction"), density: number_in("density"), weight: number_in("weight") };
+            add(&mut draft, naming, number + 1, &names, geometry.unwrap_or(""), scale, values);
+        }
+        return draft;
+    }
     for (number, line) in text.lines().enumerate() {
         let line = line.trim();
         if line.is_empty() || line.starts_with('#') {
             continue;
         }
         let (name, rest) = named(line);
-        let mut element = format!("line {}", number + 1);
-        if !name.is_empty() {
-            element = format!("{element} \"{name}\"");
-        }
-        let kind = naming.role(name);
-        if kind == Some(Role::Ignored) {
-            draft.notes.push(format!("{element} is left out: its name begins with ignore or guide"));
-            continue;
-        }
-        let mut reader = Reader { rest, scale, robot: kind == Some(Role::Robot), geometries: Vec::new() };
-        let read = reader.geometry(0).and_then(|()| {
-            if reader.rest.trim().is_empty() { Ok(()) } else { Err(reader.expected_error("the end of the line")) }
-        });
-        if let Err(why) = read {
-            draft.remark(element, format!("{why}; left out"), "write a line as: name; POLYGON ((0 0, 2 0, 2 1, 0 0))");
-            continue;
-        }
-        if reader.geometries.is_empty() {
-            draft.remark(&element, "it is empty; left out", "");
-        }
-        draft.parts.extend(reader.geometries.into_iter().map(|form| Part {
-            kind: kind.unwrap_or(Role::Block),
-            name: name.to_owned(),
-            element: element.clone(),
-            form,
-            fill: None,
-            values: Values::default(),
-        }));
+        add(&mut draft, naming, number + 1, &[name], rest, scale, Values::default());
     }
     draft
+}
+
+/// True if a text is a table with a column of well-known text.
+pub(super) fn is_table(text: &str) -> bool {
+    table(text.strip_prefix('\u{feff}').unwrap_or(text)).is_some()
+}
+
+/// Returns the separator and the headings of a table with a column of well-known text; `None` for other text.
+fn table(text: &str) -> Option<(char, Vec<String>)> {
+    let heading = text.lines().find(|line| !line.trim().is_empty())?;
+    let split = |separator| (separator, cells(heading, separator));
+    let is_geometry = |heading: &String| GEOMETRY_KEYS.iter().any(|key| heading.eq_ignore_ascii_case(key));
+    [',', ';', '\t'].map(split).into_iter().find(|(_, columns)| columns.iter().any(is_geometry))
+}
+
+/// Splits a row of a table into cells. Cells in quotes may contain the separator; two quotes stand for one.
+fn cells(line: &str, separator: char) -> Vec<String> {
+    let (mut cells, mut is_quoted) = (vec![String::new()], false);
+    for c in line.trim_end().chars() {
+        match (c, cells.last_mut()) {
+            ('"', _) => is_quoted = !is_quoted,
+            (c, _) if c == separator && !is_quoted => cells.push(String::new()),
+            (c, Some(cell)) => cell.push(c),
+            (_, None) => {}
+        }
+    }
+    cells
+}
+
+/// Adds the geometry in the line `number` to the draft. `names` are the names that the line gives, the most important
+/// first.
+fn add(draft: &mut Draft, naming: &Naming<'_>, number: usize, names: &[&str], text: &str, scale: f64, values: Values) {
+    let name = names.first().copied().unwrap_or("");
+    let mut element = format!("line {number}");
+    if !name.is_empty() {
+        element = format!("{element} \"{name}\"");
+    }
+    let kind = names.iter().filter_map(|name| naming.role(name)).next();
+    if kind == Some(Role::Ignored) {
+        draft.notes.push(format!("{element} is left out: {}", naming.why_ignored()));
+        return;
+    }
+    let mut reader = Reader { rest: text, scale, robot: kind == Some(Role::Robot), geometries: Vec::new() };
+    let read = reader.geometry(0).and_then(|()| {
+        if reader.rest.trim().is_empty() { Ok(()) } else { Err(reader.expected_error("the end of the line")) }
+    });
+    if let Err(why) = read {
+        draft.remark(element, format!("{why}; left out"), "write a line as: name; POLYGON ((0 0, 2 0, 2 1, 0 0))");
+        return;
+    }
+    if reader.geometries.is_empty() {
+        draft.remark(&element, "it is empty; left out", "");
+    }
+    draft.parts.extend(reader.geometries.into_iter().map(|form| Part {
+        kind: kind.unwrap_or(Role::Block),
+        name: name.to_owned(),
+        element: element.clone(),
+        form,
+        clips: Vec::new(),
+        fill: None,
+        values,
+    }));
 }
 
 /// Splits a line into name and geometry, at the last semicolon or tab before the first parenthesis. The prefix
@@ -227,5 +287,16 @@ mod tests {
         assert_eq!(remarks[1], "there is `x))` where a number should be; left out");
         assert_eq!(draft.remarks[0].element, "line 9 \"b\"");
         assert_eq!(draft.notes.len(), 1);
+    }
+
+    #[test]
+    fn a_table_has_a_column_of_well_known_text() {
+        let text =
+            "WKT,id,name\n\"POLYGON ((-1 -0.3,4 -0.3,4 0,-1 0))\",0,ground\n\"POLYGON ((0 0,1 0,1 0.5,0 0.5))\",1,a\n";
+        assert!(is_table(text) && !is_table("a; POLYGON((0 0,1 0,0 1))"));
+        let draft = read(text, 1.0, &Naming::default());
+        let parts: Vec<(&str, Role)> = draft.parts.iter().map(|p| (p.name.as_str(), p.kind)).collect();
+        assert_eq!(parts, [("ground", Role::Ground), ("a", Role::Block)]);
+        assert_eq!(draft.remarks, []);
     }
 }

@@ -79,7 +79,7 @@ fn ground_is_found_by_name_or_layer_and_its_absence_is_reported() {
         &bench,
         "import other.svg -o b.json",
         0,
-        &["warning: other.svg: no part of the drawing is ground", "--ground-layer", "the drawing has Felsen, Stones"],
+        &["warning: other.svg: no part of the drawing is ground", "--ground:", "the drawing has Felsen, Stones", "1: "],
     );
     assert_run(&bench, "import other.svg --strict", 2, &["no part of the drawing is ground"]);
     assert_run(&bench, "import other.svg -o c.json --ground-layer felsen", 0, &["3 blocks, 1 part of the ground"]);

@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::record::{Record, integer, number};
+use super::spline::spline;
 use crate::geometry::{Point, Vector};
 use crate::sources::import::subpath::{Arc, Segment, Subpath};
 
@@ -52,16 +53,19 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
             Subpath::closed(&corners).map_or(Shape::Unreadable("it has no corners"), Shape::Curve)
         }
         "POINT" => Shape::Point(point(entity, 10)),
-        "SPLINE" => Shape::Unreadable("a spline has no exact corners"),
+        "SPLINE" => match spline(entity) {
+            Some(curve) => Shape::Curve(curve),
+            None => Shape::Unreadable("its control points and knots are not complete"),
+        },
         "3DFACE" | "3DSOLID" | "BODY" | "MESH" | "REGION" | "SURFACE" => Shape::Unreadable("it is not a plane outline"),
         "MLINE" => Shape::Unreadable("a multiline (MLINE) has no single outline"),
         _ => return None,
     };
     Some(match (extrusion(entity), shape) {
         (Extrusion::Up, shape) => shape,
-        (Extrusion::Down, Shape::Curve(curve)) if entity.kind != "LINE" && entity.kind != "ELLIPSE" => {
-            // If the normal of a curve points down, its x axis points to the left, so the curve is mirrored. LINE and
-            // ELLIPSE are not mirrored, because they always use the axes of the drawing.
+        (Extrusion::Down, Shape::Curve(curve)) if !matches!(entity.kind, "LINE" | "ELLIPSE" | "SPLINE") => {
+            // If the normal of a curve points down, its x axis points to the left, so the curve is mirrored. LINE,
+            // ELLIPSE and SPLINE are not mirrored, because they always use the axes of the drawing.
             Shape::Curve(curve.mapped(&crate::sources::import::affine::Affine::scale(-1.0, 1.0)))
         }
         (Extrusion::Down, shape) => shape,

@@ -18,6 +18,7 @@ mod document;
 mod entity;
 mod hatch;
 mod record;
+mod spline;
 mod walk;
 
 use std::collections::BTreeMap;
@@ -40,7 +41,7 @@ pub(super) fn read(text: &str, scale: Scale, naming: &Naming<'_>) -> Result<Draf
         document: &document,
         naming,
         metres,
-        draft: Draft::default(),
+        draft: Draft { unit: metres, ..Draft::default() },
         open: BTreeMap::new(),
         hatches: Vec::new(),
         left_out: BTreeMap::new(),

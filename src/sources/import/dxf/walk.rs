@@ -128,7 +128,7 @@ impl<'d> DxfWalk<'d> {
         }
         let role = self.naming.role(&layer).or(around.role);
         if role == Some(Role::Ignored) {
-            self.leave("entities on layers whose names begin with ignore or guide");
+            self.leave("entities on layers whose names begin with ignore or guide, or are given with --ignore");
             return None;
         }
         Some(EntityContext { layer, role, ..around.clone() })
@@ -195,7 +195,7 @@ impl<'d> DxfWalk<'d> {
             role = Some(own);
         }
         if role == Some(Role::Ignored) {
-            self.leave("entities in blocks whose names begin with ignore or guide");
+            self.leave("entities in blocks whose names begin with ignore or guide, or are given with --ignore");
             return Ok(());
         }
         let times = |code: i32| insert.text(code).map_or(1, count).max(1);
@@ -307,6 +307,7 @@ fn new_part(place: &EntityContext, form: PartGeometry, element: String) -> Part 
         name: place.block.clone(),
         element,
         form,
+        clips: Vec::new(),
         fill: None,
         values: Values { friction: stone.map(|s| s.friction), density: stone.map(|s| s.density), weight: None },
     }

@@ -9,6 +9,7 @@ use super::style::Style;
 use super::viewport::{Viewport, fitted, length, view_box};
 use crate::sources::import::affine::Affine;
 use crate::sources::import::draft::Role;
+use crate::sources::import::subpath::Subpath;
 
 /// The properties that an element inherits from the elements around it.
 #[derive(Clone)]
@@ -21,6 +22,8 @@ pub(super) struct Context {
     pub(super) group: Option<String>,
     /// The `<use>` element that draws this copy, if any.
     pub(super) copy: Option<UseElement>,
+    /// The clip paths around the element, in metres.
+    pub(super) clips: Vec<Subpath>,
     pub(super) depth: usize,
 }
 
@@ -34,7 +37,7 @@ pub(super) struct UseElement {
 impl Context {
     /// Returns the context of the root element: a transform, a style and a viewport, but no role and no names.
     pub(super) fn of_page(map: Affine, style: Style, viewport: Viewport) -> Context {
-        Context { map, style, viewport, kind: None, group: None, copy: None, depth: 0 }
+        Context { map, style, viewport, kind: None, group: None, copy: None, clips: Vec::new(), depth: 0 }
     }
 
     /// Sets the transform and the viewport for the content of a nested `<svg>` or a `<symbol>`.

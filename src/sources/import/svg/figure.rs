@@ -62,6 +62,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             return Err(format!("there is no frame {}: the figure has {has}", number + 1));
         };
         let map = frame_map(picture, scale)?;
+        self.draft.unit = 1.0;
         let note = if count == 1 {
             "a figure by drystone".into()
         } else {
@@ -141,6 +142,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                 name: name.to_owned(),
                 element,
                 form: PartGeometry::Subpaths(subpaths.iter().map(|t| t.mapped(&map)).collect(), FillRule::NonZero),
+                clips: Vec::new(),
                 fill: None,
                 values: Values::default(),
             }),

@@ -2,7 +2,7 @@
 
 use roxmltree::Node;
 
-const INKSCAPE_NAMESPACE: &str = "http://www.inkscape.org/namespaces/inkscape";
+pub(super) const INKSCAPE_NAMESPACE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
 /// Returns the name that the user gave to an element: the label of Inkscape, the name of Illustrator, or an id that
 /// no program generated. `None` if there is no such name.

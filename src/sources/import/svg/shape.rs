@@ -38,6 +38,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             name: shape_name(node, around),
             element: self.element_label(node, around),
             form: PartGeometry::Subpaths(mapped, around.style.rule),
+            clips: around.clips.clone(),
             fill,
             values: Values::default(),
         };

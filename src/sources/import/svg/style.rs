@@ -103,6 +103,14 @@ impl Style {
     }
 }
 
+/// Returns the id of the clip path of an element; `None` if its clip path is not a reference.
+pub(super) fn clip_reference(node: Node<'_, '_>, sheet: &StyleSheet<'_>) -> Option<String> {
+    let own = declarations(node, sheet);
+    let value = own.iter().rev().find(|d| d.0 == "clip-path")?.1.trim();
+    let id = value.strip_prefix("url(")?.strip_suffix(')')?.trim_matches(['"', '\'', ' ']);
+    id.strip_prefix('#').map(str::to_owned)
+}
+
 fn bytes(colour: Color) -> [u8; 3] {
     [colour.red, colour.green, colour.blue]
 }

@@ -5,7 +5,11 @@ use core::str::FromStr;
 use roxmltree::Node;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, ViewBox};
 
+use super::name::INKSCAPE_NAMESPACE;
 use crate::sources::import::affine::Affine;
+
+/// Pixels per inch in CSS.
+const CSS_DPI: f64 = 96.0;
 
 /// The size to which percentages refer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,12 +34,13 @@ pub(super) struct Page {
 /// Reads the viewport, the position of the page and its physical size from the attributes of the root element.
 pub(super) fn page(root: Node<'_, '_>) -> Page {
     let sizes = ["width", "height"].map(|name| root.attribute(name).and_then(|t| Length::from_str(t).ok()));
-    let view = view_box(root);
-    let pixels = |i: usize| sizes[i].and_then(|l| in_pixels(l, None)).filter(|p| *p > 0.0);
-    let view = view.or_else(|| Some(ViewBox::new(0.0, 0.0, pixels(0)?, pixels(1)?)));
+    let dpi = pixels_per_inch(root);
+    let pixels = |i: usize| sizes[i].and_then(|l| in_pixels(l, None)).map(|p| p * dpi / CSS_DPI).filter(|p| *p > 0.0);
+    let given = view_box(root);
+    let view = given.or_else(|| Some(ViewBox::new(0.0, 0.0, pixels(0)?, pixels(1)?)));
     let metres = |i: usize| sizes[i].and_then(physical).filter(|m| *m > 0.0);
     let mut unit = None;
-    if let Some(view) = view {
+    if let Some(view) = given {
         // If width and height give different scales, viewers use the smaller one.
         let per_width = metres(0).map(|m| m / view.w);
         let per_height = metres(1).map(|m| m / view.h);
@@ -47,8 +52,8 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
             unit = Some((neat(scale), described(root, per_width.is_some())));
         }
     } else if metres(0).or(metres(1)).is_some() {
-        // Without a view box, a user unit is a CSS pixel of 1/96 inch.
-        unit = Some((0.0254 / 96.0, described(root, metres(0).is_some())));
+        let program = if dpi == CSS_DPI { "" } else { " and is by an Inkscape before 0.92" };
+        unit = Some((0.0254 / dpi, format!("it has no viewBox{program}, and a pixel is then 1/{dpi} inch")));
     }
     let shown = view.unwrap_or(ViewBox::new(0.0, 0.0, 0.0, 0.0));
     Page {
@@ -59,10 +64,20 @@ pub(super) fn page(root: Node<'_, '_>) -> Page {
     }
 }
 
-/// Returns a text with the size of the page that determines the scale, such as `210mm wide`.
+/// Returns the number of user units per inch of a drawing without a view box: 96, or 90 for old versions of Inkscape.
+fn pixels_per_inch(root: Node<'_, '_>) -> f64 {
+    let version = root.attribute((INKSCAPE_NAMESPACE, "version")).unwrap_or("");
+    let mut numbers = version.split(|c: char| !c.is_ascii_digit()).map(str::parse::<u32>);
+    match (numbers.next(), numbers.next()) {
+        (Some(Ok(0)), Some(Ok(minor))) if minor < 92 => 90.0,
+        _ => CSS_DPI,
+    }
+}
+
+/// Returns a sentence with the size of the page that determines the scale, such as `it is 210mm wide`.
 fn described(root: Node<'_, '_>, by_width: bool) -> String {
     let (name, way) = if by_width { ("width", "wide") } else { ("height", "high") };
-    format!("{} {way}", root.attribute(name).unwrap_or("").trim())
+    format!("it is {} {way}", root.attribute(name).unwrap_or("").trim())
 }
 
 /// Reads an attribute as a length in user units. A percentage refers to the length `whole`. Returns `None` if the
@@ -110,7 +125,7 @@ fn in_pixels(length: Length, whole: Option<f64>) -> Option<f64> {
         // The default font size of browsers is 16 pixels.
         LengthUnit::Em => 16.0 * n,
         LengthUnit::Ex => 8.0 * n,
-        _ => physical(length)? / 0.0254 * 96.0,
+        _ => physical(length)? / 0.0254 * CSS_DPI,
     };
     pixels.is_finite().then_some(pixels)
 }
@@ -153,6 +168,10 @@ mod tests {
             assert!((found / 0.0254 * 96.0 - 1.0).abs() < 1e-13, "{found}");
         }
         assert_eq!(unit("width='72pt' height='72pt' viewBox='0 0 2 1'"), Some(0.0127));
+        // Inkscape before 0.92 counted 90 pixels per inch.
+        let old =
+            "width='1220mm' height='610mm' xmlns:i='http://www.inkscape.org/namespaces/inkscape' i:version='0.48.4'";
+        assert!((unit(old).expect("a size") * 354.33 - 0.1).abs() < 1e-6);
         for none in ["width='800px' height='600px'", "width='100%' viewBox='0 0 5 5'", "viewBox='0 0 5 5'", ""] {
             assert_eq!(unit(none), None, "{none}");
         }

@@ -7,21 +7,31 @@ use simplecss::StyleSheet;
 
 use super::MAX_RULE_MATCHES;
 use super::context::{Context, UseElement};
+use super::element;
 use super::name::{self, Lines};
 use super::remark::{MAX_LISTED_REMARKS, RemarkKind};
-use super::style::Style;
-use super::viewport;
+use super::style::{self, Style};
+use super::viewport::{self, Viewport};
 use super::xml::{SVG, is, is_never_drawn};
+use crate::geometry::{Point, Vector};
 use crate::sources::import::affine::Affine;
-use crate::sources::import::draft::{Draft, Role};
+use crate::sources::import::draft::{Draft, PartGeometry, Role};
 use crate::sources::import::naming::Naming;
 use crate::sources::import::scale::Scale;
+use crate::sources::import::subpath::Subpath;
 
 const XLINK_NAMESPACE: &str = "http://www.w3.org/1999/xlink";
+/// An outline is as large as the page if its corners are this close to those of the page, as a share of its diagonal.
+const PAGE_TOL: f64 = 0.005;
 /// The largest nesting depth of groups and copies; deeper files could overflow the stack.
 const MAX_DEPTH: usize = 100;
 /// The largest number of elements, copies included. Copies of copies can grow exponentially.
 const MAX_ELEMENTS: usize = 500_000;
+
+/// Returns the reference of a `<use>` element.
+fn reference<'a>(node: Node<'a, '_>) -> Option<&'a str> {
+    node.attribute("href").or_else(|| node.attribute((XLINK_NAMESPACE, "href")))
+}
 
 /// The state of a walk over the elements of an SVG.
 pub(super) struct SvgWalk<'a, 'd> {
@@ -44,15 +54,44 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     /// Reads an SVG that is not a figure of drystone.
     pub(super) fn drawing(&mut self, root: Node<'a, 'd>, scale: Scale) -> Result<(), String> {
         let page = viewport::page(root);
-        let stated = page.unit.map(|(unit, stated)| (unit, format!("it is {stated}")));
-        let (scale, note) = scale.of(stated, "it has no size in mm, cm, in or pt")?;
+        let (scale, note) = scale.of(page.unit, "it has no size in mm, cm, in or pt")?;
         self.draft.notes.push(note);
+        self.draft.unit = scale;
         // The lower left corner of the page becomes the origin, as in the rulers of Inkscape.
         let map = Affine([scale, 0.0, 0.0, -scale, -scale * page.left, scale * page.bottom]);
         let style = Style::ROOT.of_child(root, &self.sheet);
         let around = Context::of_page(map, style, page.viewport);
         self.children(root, &around);
+        self.leave_page_out(map.point(Point::new(page.left, page.bottom)), page.viewport, scale);
         Ok(())
+    }
+
+    /// Leaves out the first outline if it is a rectangle of the size of the page, and has no role: the background that
+    /// design programs draw. `corner` is the lower left corner of the page in metres.
+    fn leave_page_out(&mut self, corner: Point, page: Viewport, scale: f64) {
+        let [first, _, ..] = self.draft.parts.as_slice() else { return };
+        let PartGeometry::Subpaths(subpaths, _) = &first.form else { return };
+        let hull: Vec<Point> = subpaths.iter().flat_map(Subpath::hull).collect();
+        let size = Vector::new(page.width, page.height) * scale;
+        let tolerance = PAGE_TOL * size.norm();
+        let is_page = first.kind == Role::Block
+            && first.clips.is_empty()
+            && size.x > 0.0
+            && size.y > 0.0
+            && (4..=5).contains(&hull.len())
+            && !subpaths.iter().any(Subpath::has_curves)
+            && [0.0, 1.0].into_iter().all(|x| {
+                let near = |y: f64| {
+                    hull.iter().any(|p| (p - corner - Vector::new(x * size.x, y * size.y)).norm() <= tolerance)
+                };
+                near(0.0) && near(1.0)
+            });
+        if is_page {
+            let part = self.draft.parts.remove(0);
+            self.draft
+                .notes
+                .push(format!("{} is left out: it is as large as the page, so it is a background", part.element));
+        }
     }
 
     fn children(&mut self, node: Node<'a, 'd>, around: &Context) {
@@ -79,27 +118,58 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             return;
         }
         if kind == Some(Role::Ignored) {
-            self.skip(node, around, "its name begins with ignore or guide");
+            self.skip(node, around, self.naming.why_ignored());
             return;
-        }
-        if style.clipped {
-            let why = "clip paths are not supported; the whole outline is imported";
-            let help = "cut the outline itself";
-            self.remark(RemarkKind::ClipPath, node, around, why, help);
         }
         if style.masked {
             let why = "masks are not supported; the whole outline is imported";
             let help = "cut the outline itself";
             self.remark(RemarkKind::Mask, node, around, why, help);
         }
-        let inner = Context {
+        let mut inner = Context {
             map: around.map.after(&self.transform(node, around)),
             style,
             kind,
             depth: around.depth + 1,
             ..around.clone()
         };
+        if style.clipped {
+            match self.clip(node, &inner) {
+                Some(clip) => inner.clips.push(clip),
+                None => {
+                    let why = "its clip path is not a single outline; the whole outline is imported";
+                    self.remark(RemarkKind::ClipPath, node, around, why, "cut the outline itself");
+                }
+            }
+        }
         self.draw(node, around, inner);
+    }
+
+    /// Returns the outline of the clip path of an element, in metres. `None` if the clip path does not consist of one
+    /// closed outline in the coordinates of the element.
+    fn clip(&mut self, node: Node<'a, 'd>, inner: &Context) -> Option<Subpath> {
+        let clip = *self.ids.get(style::clip_reference(node, &self.sheet)?.as_str())?;
+        let in_box = clip.attribute("clipPathUnits") == Some("objectBoundingBox");
+        if !is(clip, "clipPath") || in_box || clip.has_attribute("clip-path") {
+            return None;
+        }
+        let mut shapes = clip.children().filter(Node::is_element);
+        let (mut shape, None) = (shapes.next()?, shapes.next()) else {
+            return None;
+        };
+        let mut map = inner.map.after(&self.transform(clip, inner)).after(&self.transform(shape, inner));
+        if is(shape, "use") {
+            shape = self.copied(shape).filter(|target| target.children().all(|c| !c.is_element()))?;
+            map = map.after(&self.transform(shape, inner));
+        }
+        let subpaths = element::subpaths(shape, inner.viewport).ok()?;
+        let [subpath] = subpaths.as_slice() else { return None };
+        (subpath.segments.len() > 1 || subpath.has_curves()).then(|| Subpath { closed: true, ..subpath.mapped(&map) })
+    }
+
+    /// Returns the element to which a `<use>` element refers; `None` if there is none.
+    fn copied(&self, node: Node<'a, 'd>) -> Option<Node<'a, 'd>> {
+        reference(node).and_then(|r| r.trim().strip_prefix('#')).and_then(|id| self.ids.get(id).copied())
     }
 
     /// Counts an element. Returns true, and adds a remark, if the element exceeds a limit: on the number of elements,
@@ -175,10 +245,8 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
 
     /// Reads the element to which a `<use>` element refers.
     fn copy(&mut self, node: Node<'a, 'd>, mut inner: Context) {
-        let reference = node.attribute("href").or_else(|| node.attribute((XLINK_NAMESPACE, "href")));
-        let target = reference.and_then(|r| r.trim().strip_prefix('#')).and_then(|id| self.ids.get(id).copied());
-        let Some(target) = target else {
-            let why = format!("it copies {}, which does not exist; left out", reference.unwrap_or("nothing"));
+        let Some(target) = self.copied(node) else {
+            let why = format!("it copies {}, which does not exist; left out", reference(node).unwrap_or("nothing"));
             self.remark(RemarkKind::MissingCopy, node, &inner, &why, "");
             return;
         };

@@ -1,0 +1,209 @@
+//! Imports small files of the kinds that people brought: exports of other programs, tables, and pictures.
+//!
+//! Each is reduced to what was misread at first.
+
+use drystone::analysis::Verdict;
+use drystone::import::{DrawingProblems, Format, Imported, Options, import};
+use drystone::{Analysis, Scene};
+use serde_json::{Value, json};
+
+fn read(text: &str, format: Format, options: &Options) -> Imported {
+    import(text, format, options).unwrap_or_else(|refusal| panic!("{refusal:?}"))
+}
+
+fn refused(text: &str, format: Format, options: &Options) -> DrawingProblems {
+    import(text, format, options).expect_err("refused")
+}
+
+fn verdict(imported: &Imported) -> Verdict {
+    let scene = Scene::from_json(&imported.scene.to_json()).expect("sound");
+    Analysis::new(&scene).verdict()
+}
+
+fn counts(imported: &Imported) -> (usize, usize) {
+    (imported.scene.blocks.len(), imported.scene.ground.len())
+}
+
+fn ids(imported: &Imported) -> Vec<&str> {
+    imported.scene.blocks.iter().filter_map(|b| b.id.as_deref()).collect()
+}
+
+fn has_note(imported: &Imported, words: &str) -> bool {
+    imported.notes.iter().any(|n| n.contains(words))
+}
+
+/// The area of the block with this number, in square metres.
+fn area(imported: &Imported, block: usize) -> f64 {
+    Scene::from_json(&imported.scene.to_json()).expect("sound").blocks()[block].body.polygon.area()
+}
+
+/// A GeoJSON file of rectangles: the properties, and the corners at the lower left and the upper right.
+fn rectangles(list: &[(Value, [f64; 4])]) -> String {
+    let features = list.iter().map(|(properties, [x, y, right, top])| {
+        json!({ "type": "Feature", "properties": properties, "geometry": { "type": "Polygon",
+            "coordinates": [[[x, y], [right, y], [right, top], [x, top], [x, y]]] } })
+    });
+    json!({ "type": "FeatureCollection", "features": features.collect::<Vec<_>>() }).to_string()
+}
+
+fn options(ground: &[&str], ignore: &[&str]) -> Options {
+    let texts = |list: &[&str]| list.iter().map(|t| (*t).to_owned()).collect::<Vec<String>>();
+    Options::default().ground(texts(ground)).ignore(texts(ignore))
+}
+
+#[test]
+fn the_name_of_a_feature_decides_before_its_class_and_its_id() {
+    // QGIS writes an id and a name, QuPath a class.
+    let floor = [-1.0, -0.3, 4.0, 0.0];
+    for properties in [
+        json!({ "id": 1, "name": "ground" }),
+        json!({ "class": "ground" }),
+        json!({ "classification": { "name": "Ground", "color": [1, 2, 3] } }),
+        json!({ "Name": "floor", "Layer": "ground" }),
+    ] {
+        let stone = json!({ "id": 2, "name": "stone A", "class": "stone" });
+        let text = rectangles(&[(properties, floor), (stone, [0.0, 0.0, 1.0, 0.5])]);
+        let imported = read(&text, Format::GeoJson, &Options::default());
+        assert_eq!((counts(&imported), ids(&imported)), ((1, 1), vec!["stone A"]));
+        assert_eq!(verdict(&imported), Verdict::Stable);
+    }
+}
+
+#[test]
+fn bodies_without_names_are_chosen_by_number_point_or_height() {
+    let body = |x: f64, y: f64| (json!({}), [x, y, x + 100.0, y + 100.0]);
+    let text = rectangles(&[body(0.0, 0.0), body(20.0, 100.0), body(40.0, 200.0), body(0.0, -100.0)]);
+    let silent = read(&text, Format::GeoJson, &Options::default());
+    assert_eq!(counts(&silent), (4, 0));
+    assert!(silent.remarks[0].help.contains("--ground"), "{:?}", silent.remarks);
+    assert!(has_note(&silent, "4: features[3].geometry, from (0, -100) to (100, 0)"), "{:?}", silent.notes);
+    for value in ["4", "50,-20", "below:0"] {
+        let imported = read(&text, Format::GeoJson, &options(&[value], &[]));
+        assert_eq!((counts(&imported), verdict(&imported)), ((3, 1), Verdict::Stable), "{value}");
+    }
+    // Heights are in the unit of the drawing.
+    let small = read(&text, Format::GeoJson, &options(&["below:0"], &["90,250"]).scale(0.001));
+    assert_eq!(counts(&small), (2, 1));
+    let left_out = read(&text, Format::GeoJson, &options(&["4"], &["3"]));
+    assert_eq!((counts(&left_out), has_note(&left_out, "left out with --ignore: 1 of 4")), ((2, 1), true));
+    for value in ["5", "999,0", "below:-200", "nothing"] {
+        let refusal = refused(&text, Format::GeoJson, &options(&[value], &[]));
+        assert_eq!((refusal.problems.len(), refusal.notes.is_empty()), (1, value == "nothing"), "{refusal:?}");
+    }
+}
+
+#[test]
+fn a_drawing_with_y_down_is_turned_upside_down() {
+    let wall: Vec<(Value, [f64; 4])> = (0..3)
+        .map(|i| {
+            (
+                json!({ "name": format!("s{i}") }),
+                [200.0, 950.0 - 150.0 * f64::from(i), 500.0, 1100.0 - 150.0 * f64::from(i)],
+            )
+        })
+        .collect();
+    let floor = (json!({ "name": "ground" }), [100.0, 1100.0, 1500.0, 1180.0]);
+    let text = rectangles(&[vec![floor], wall].concat());
+    assert_eq!(verdict(&read(&text, Format::GeoJson, &Options::default())), Verdict::Unstable);
+    assert_eq!(verdict(&read(&text, Format::GeoJson, &Options::default().flip_y(true))), Verdict::Stable);
+}
+
+#[test]
+fn a_spreadsheet_of_well_known_text_is_a_drawing() {
+    let text = "WKT,id,name\n\"POLYGON ((-1 -0.3,4 -0.3,4 0,-1 0,-1 -0.3))\",0,ground\n\"POLYGON ((0 0,1 0,1 0.5,0 0.5,0 0))\",1,a\n\
+        \"POLYGON ((1.2 0,2.2 0,2.2 0.5,1.2 0.5,1.2 0))\",2,b\n\"POLYGON ((0.5 0.5,1.7 0.5,1.7 1,0.5 1,0.5 0.5))\",3,c\n";
+    let imported = read(text, Format::Contacts, &Options::default());
+    assert_eq!((ids(&imported), verdict(&imported)), (vec!["a", "b", "c"], Verdict::Stable));
+}
+
+#[test]
+fn the_background_of_a_page_is_left_out() {
+    let text = r#"<svg width="400" height="300" viewBox="0 0 400 300" fill="none" xmlns="http://www.w3.org/2000/svg">
+        <rect width="400" height="300" fill="white"/><rect x="20" y="260" width="360" height="20"/>
+        <path d="M100 210H200V260H100V210Z"/></svg>"#;
+    let imported = read(text, Format::Svg, &options(&["below:41"], &[]));
+    assert_eq!((counts(&imported), verdict(&imported)), ((1, 1), Verdict::Stable));
+    assert!(has_note(&imported, "as large as the page"));
+    let alone = r#"<svg viewBox="0 0 4 3" xmlns="http://www.w3.org/2000/svg"><rect width="4" height="3"/></svg>"#;
+    assert_eq!(counts(&read(alone, Format::Svg, &Options::default())), (1, 0));
+}
+
+#[test]
+fn clip_paths_cut_outlines_or_contain_them() {
+    let text = |clip: &str| {
+        format!(
+            r##"<svg xmlns="http://www.w3.org/2000/svg" width="400mm" height="300mm" viewBox="0 0 400 300">
+            <clipPath id="page"><rect width="400" height="300"/></clipPath><clipPath id="c">{clip}</clipPath>
+            <g clip-path="url(#page)"><g clip-path="url(#c)"><rect id="s" x="100" y="120" width="120" height="160"/></g></g></svg>"##
+        )
+    };
+    let square = read(&text(r#"<rect x="100" y="100" width="80" height="100"/>"#), Format::Svg, &Options::default());
+    assert!((area(&square, 0) - 0.08 * 0.08).abs() < 1e-12);
+    assert_eq!(square.remarks.len(), 1, "only the ground is missing: {:?}", square.remarks);
+    let round = read(&text(r#"<circle cx="160" cy="200" r="50"/>"#), Format::Svg, &Options::default());
+    assert!((area(&round, 0) / (std::f64::consts::PI * 0.05 * 0.05) - 1.0).abs() < 0.02);
+    // A concave clip path, and one of two outlines, are not used.
+    for clip in [
+        r#"<path d="M100 100H300L150 150L100 300Z"/>"#,
+        r#"<rect width="150" height="150"/><rect y="150" width="9" height="9"/>"#,
+    ] {
+        let whole = read(&text(clip), Format::Svg, &Options::default());
+        assert!((area(&whole, 0) - 0.12 * 0.16).abs() < 1e-12);
+        assert!(
+            whole.remarks.iter().any(|r| r.message.contains("the whole outline is imported")),
+            "{:?}",
+            whole.remarks
+        );
+    }
+}
+
+/// A box of size 1 whose ends are triangles, and one of whose sides is divided.
+fn meshed(x: f64, z: f64) -> Value {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.0]];
+    let vertex: serde_json::Map<String, Value> = (0..10)
+        .map(|i| {
+            let [u, w] = corners[i % 5];
+            (i.to_string(), json!({ "x": x + u, "y": i / 5, "z": z + w }))
+        })
+        .collect();
+    let face = json!({ "0": [0, 4, 3], "1": [4, 2, 3], "2": [4, 1, 2], "3": [5, 8, 9], "4": [9, 8, 7], "5": [9, 7, 6],
+        "6": [0, 5, 9, 4], "7": [4, 9, 6, 1], "8": [1, 6, 7, 2], "9": [2, 7, 8, 3], "10": [3, 8, 5, 0] });
+    json!({ "vertex": vertex, "face": face })
+}
+
+#[test]
+fn a_prism_is_a_prism_however_it_is_meshed() {
+    let node = |z: f64, support: bool| json!({ "block": { "data": meshed(0.0, z) }, "is_support": support });
+    let assembly =
+        |support| json!({ "data": { "graph": { "node": { "0": node(0.0, support), "1": node(1.0, false) } } } });
+    let imported = read(&assembly(true).to_string(), Format::Compas, &Options::default());
+    assert_eq!((counts(&imported), imported.scene.thickness), ((1, 1), Some(1.0)));
+    assert_eq!(imported.scene.blocks[0].polygon.as_ref().expect("an outline").len(), 4);
+    assert_eq!(verdict(&imported), Verdict::Stable);
+    // Without supports, there is a warning, and numbers, points and heights choose the ground.
+    let silent = assembly(false).to_string();
+    let unsupported = read(&silent, Format::Compas, &Options::default());
+    assert!(unsupported.remarks[0].message.contains("no part of the drawing is ground"));
+    assert!(has_note(&unsupported, "1: block 0, from (0, 0) to (1, 1)"), "{:?}", unsupported.notes);
+    for value in ["0", "0.5,0.5", "below:1"] {
+        assert_eq!(counts(&read(&silent, Format::Compas, &options(&[value], &[]))), (1, 1), "{value}");
+    }
+}
+
+#[test]
+fn a_block_model_of_compas_dem_is_read() {
+    let element = |z: f64, support: bool| json!({ "data": { "name": "Block", "material": "m", "geometry": { "data": meshed(0.0, z) }, "is_support": support } });
+    let moved = json!({ "data": { "matrix": [[1, 0, 0, 0.25], [0, 1, 0, 0], [0, 0, 1, 2], [0, 0, 0, 1]] } });
+    let mut top = element(0.0, false);
+    top["data"]["transformation"] = moved;
+    let model = json!({ "dtype": "compas_dem.models/BlockModel", "data": {
+        "elements": { "f": element(0.0, true), "a": element(1.0, false), "c": top },
+        "materials": { "m": { "data": { "density": 2000 } } },
+        "graph": { "node": { "0": { "element": "f" }, "1": { "element": "a" }, "2": { "element": "c" } } } } });
+    assert_eq!(Format::of_json(&model.to_string()), Format::Compas);
+    let imported = read(&model.to_string(), Format::Compas, &Options::default());
+    assert_eq!((counts(&imported), ids(&imported)), ((2, 1), vec!["1", "2"]));
+    assert_eq!(imported.scene.blocks[0].density, Some(2000.0));
+    assert!(imported.scene.blocks[1].polygon.as_ref().expect("an outline").contains(&[1.25, 3.0]));
+    assert_eq!(verdict(&imported), Verdict::Stable);
+}
