@@ -4,6 +4,7 @@
 
 use drystone::analysis::Verdict;
 use drystone::import::{DrawingProblems, Format, Imported, Options, import};
+use drystone::scene::NoteCode;
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
@@ -104,8 +105,14 @@ fn a_drawing_with_y_down_is_turned_upside_down() {
         .collect();
     let floor = (json!({ "name": "ground" }), [100.0, 1100.0, 1500.0, 1180.0]);
     let text = rectangles(&[vec![floor], wall].concat());
-    assert_eq!(verdict(&read(&text, Format::GeoJson, &Options::default())), Verdict::Unstable);
-    assert_eq!(verdict(&read(&text, Format::GeoJson, &Options::default().flip_y(true))), Verdict::Stable);
+    let hanging = read(&text, Format::GeoJson, &Options::default());
+    assert_eq!(verdict(&hanging), Verdict::Unstable);
+    let scene = Scene::new(hanging.scene).expect("sound");
+    assert!(scene.notes().iter().any(|n| n.code == NoteCode::BelowGround), "{:?}", scene.notes());
+    let turned = read(&text, Format::GeoJson, &Options::default().flip_y(true));
+    assert_eq!(verdict(&turned), Verdict::Stable);
+    let scene = Scene::new(turned.scene).expect("sound");
+    assert!(!scene.notes().iter().any(|n| n.code == NoteCode::BelowGround), "{:?}", scene.notes());
 }
 
 #[test]
@@ -206,4 +213,41 @@ fn a_block_model_of_compas_dem_is_read() {
     assert_eq!(imported.scene.blocks[0].density, Some(2000.0));
     assert!(imported.scene.blocks[1].polygon.as_ref().expect("an outline").contains(&[1.25, 3.0]));
     assert_eq!(verdict(&imported), Verdict::Stable);
+}
+
+/// Two stones that were drawn by hand, and overlap by 3 of 900 mm; a third overlaps the second by 4 mm.
+const BY_HAND: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="900mm" height="600mm" viewBox="0 0 900 600">
+    <path id="a" d="M100 400L400 400L405 300L250 293L98 300Z"/><path id="b" d="M110 301L250 296L400 303L390 200L120 210Z"/>
+    <path id="c" d="M121 214L391 204L390 100L120 110Z"/><rect id="ground" x="0" y="400" width="900" height="50"/></svg>"#;
+
+#[test]
+fn overlaps_are_one_problem_that_names_the_gap_that_closes_them() {
+    let refusal = refused(BY_HAND, Format::Svg, &Options::default().gap(1e-4));
+    let [problem] = refusal.problems.as_slice() else { panic!("{refusal:?}") };
+    assert!(problem.message.contains("2 pairs of bodies overlap, by up to 0.00403 m: "), "{problem:?}");
+    let gap = problem.help.split_whitespace().nth(1).and_then(|word| word.parse::<f64>().ok()).expect("a gap");
+    assert!(gap < 0.01, "{problem:?}");
+    let closed = read(BY_HAND, Format::Svg, &Options::default().gap(gap));
+    assert_eq!((counts(&closed), verdict(&closed)), ((3, 1), Verdict::Stable));
+    // The overlapping scene can be drawn with its problems.
+    let scene = refusal.overlapping.expect("only overlaps are wrong");
+    assert_eq!(Scene::from_json(&scene.to_json()).expect_err("it overlaps").list.len(), 2);
+}
+
+#[test]
+fn blocks_that_touch_nothing_are_counted_with_the_gap_that_joins_them() {
+    // Rubble with joints of mortar, 12 mm wide.
+    let stone = |i: u32, j: u32| {
+        let (x, y) = (0.3 * f64::from(i), 0.2 * f64::from(j));
+        (json!({}), [x, y + 0.012, x + 0.288, y + 0.2])
+    };
+    let wall = (0..4).flat_map(|i| (0..3).map(move |j| stone(i, j))).collect::<Vec<_>>();
+    let text = rectangles(&[vec![(json!({ "name": "ground" }), [0.0, -0.2, 1.2, 0.0])], wall].concat());
+    let apart = read(&text, Format::GeoJson, &Options::default());
+    let note =
+        apart.notes.iter().find(|n| n.contains("12 of 12 blocks touch no other body; --gap 0.013 would join them"));
+    assert!(note.is_some(), "{:?}", apart.notes);
+    let joined = read(&text, Format::GeoJson, &Options::default().gap(0.013));
+    assert_eq!(verdict(&joined), Verdict::Stable);
+    assert!(!has_note(&joined, "touch no other body"), "{:?}", joined.notes);
 }

@@ -69,6 +69,22 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
         ),
         (scene(&format!("\"blocks\": [{{ {square} }}]")), NoteCode::DefaultDensity, "blocks[0]", 2),
         (format!("{{ \"drystone\": 1, {block} }}"), NoteCode::NoGround, "ground", 1),
+        (scene("\"blocks\": []"), NoteCode::NoBlocks, "blocks", 2),
+        (scene(&block.replace("\"weight\": 5", "\"weight\": 0")), NoteCode::NoWeight, "blocks", 2),
+        // A wall in kilometres.
+        (
+            scene("\"blocks\": [{ \"polygon\": [[0, 0], [18000, 0], [18000, 90], [0, 90]], \"weight\": 5 }]"),
+            NoteCode::ImplausibleSize,
+            "blocks",
+            2,
+        ),
+        // A picture, in which y points down.
+        (
+            scene("\"blocks\": [{ \"polygon\": [[0, -9], [1, -9], [1, -8], [0, -8]], \"weight\": 5 }]"),
+            NoteCode::BelowGround,
+            "ground",
+            1,
+        ),
         (
             scene(
                 "\"density\": 2500, \"blocks\": [{ \"polygon\": [[0, 0], [1, 0], [1, 1], [0, 1]] },\n{ \"polygon\": [[1.004, 0], [2, 0], [2, 1], [1.004, 1]] }]",

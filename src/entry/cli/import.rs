@@ -125,26 +125,42 @@ impl Import {
                 let mut page = Page::default();
                 refusal.notes.iter().for_each(|note| page.line(&format!("  {note}")));
                 terminal.notes(&page);
-                return Err(refused(&name, &refusal.problems));
+                let mut problems = refusal.problems;
+                if let Some(scene) = refusal.overlapping.filter(|_| !self.strict) {
+                    self.write(terminal, file, &scene, existing)?;
+                    if let (Some(path), Some(last)) = (file, problems.last_mut()) {
+                        let path = path.display();
+                        last.help += &format!("; drystone render --broken {path} -o overlaps.svg shows what overlaps");
+                    }
+                }
+                return Err(refused(&name, &problems));
             }
         };
         if self.strict && !imported.remarks.is_empty() {
             return Err(refused(&name, &imported.remarks));
         }
-        let scene = imported.scene.to_json();
-        match file {
-            Some(path) => {
-                let files = [(path.to_owned(), scene.into_bytes())];
-                destination::write(&files, existing)?;
-            }
-            None => terminal.print_bytes(scene.as_bytes())?,
-        }
+        self.write(terminal, file, &imported.scene, existing)?;
         self.print_summary(terminal, &name, &imported);
         if self.json {
             let json = import_json(&imported);
             terminal.print_bytes(json.as_bytes())?;
         }
         Ok(ExitStatus::Done)
+    }
+
+    /// Writes the scene to the file or, without a file, to standard output.
+    fn write(
+        &self,
+        terminal: &Terminal,
+        file: Option<&Path>,
+        scene: &SceneFile,
+        existing: Existing,
+    ) -> Result<(), CliError> {
+        let scene = scene.to_json();
+        match file {
+            Some(path) => destination::write(&[(path.to_owned(), scene.into_bytes())], existing),
+            None => terminal.print_bytes(scene.as_bytes()),
+        }
     }
 
     /// Returns an error if the options contradict each other, or if the scene file is a folder or the drawing itself.
@@ -257,7 +273,7 @@ impl Import {
                 stone.name, stone.density, stone.friction, stone.source
             ));
         }
-        for note in imported.notes.iter().chain(&default_density_note(imported)) {
+        for note in imported.notes.iter().chain(&scene_notes(imported)) {
             page.line(&format!("  {note}"));
         }
         for snapped in imported.snapped.iter().take(MAX_LISTED_BODIES) {
@@ -296,12 +312,20 @@ fn remark_page(severity: &str, name: &str, remark: &Remark) -> Page {
     page
 }
 
-/// Returns a note if the scene has weights that come from the default density.
-fn default_density_note(imported: &Imported) -> Option<String> {
-    let scene = Scene::new(imported.scene.clone()).ok()?;
-    let is_it = |note: &&Note| note.code == NoteCode::DefaultDensity;
-    let note = scene.notes().iter().find(is_it)?;
-    Some(format!("{}; give --density in kg/m³ or --material limestone", note.message))
+/// Returns the notes on the scene that concern the import: on weights, sizes and heights.
+fn scene_notes(imported: &Imported) -> Vec<String> {
+    let Ok(scene) = Scene::new(imported.scene.clone()) else { return Vec::new() };
+    let line = |note: &Note| {
+        let remedy = match note.code {
+            NoteCode::DefaultDensity => "give --density in kg/m³ or --material limestone",
+            NoteCode::NoWeight => "give --density, and a --gravity that is not 0",
+            NoteCode::ImplausibleSize => "give the unit of the drawing with --unit, or its scale with --scale",
+            NoteCode::BelowGround => "if y points down in the drawing, as in pictures, give --flip-y",
+            _ => return None,
+        };
+        Some(format!("{}; {remedy}", note.message))
+    };
+    scene.notes().iter().filter_map(line).collect()
 }
 
 impl Word for Format {

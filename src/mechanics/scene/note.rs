@@ -8,12 +8,15 @@ use super::finding::Finding;
 use super::format::{HoldEntry, Pair, SceneFile};
 use super::problem::{Wording, codes, message as say};
 use super::{BlockId, Body, BodyId, RobotId, Scene};
-use crate::geometry::{Point, Polygon};
+use crate::geometry::{Bounds, Point, Polygon};
 use crate::read::{Mark, Source};
 use crate::read::{Path, Trail};
 
 /// Friction coefficients above this are probably mistakes: those of dry stone, brick, wood and rubber are lower.
 pub(super) const MAX_PLAUSIBLE_FRICTION: f64 = 2.0;
+
+/// The diagonals in metres that a typical block may have. Others come from a missing or a wrong unit.
+const PLAUSIBLE_SIZES: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
 
 codes! {
     /// The kind of a note. Later versions may add codes, but the word of a code never changes.
@@ -26,6 +29,10 @@ codes! {
     DefaultDensity "default_density" "blocks whose weight comes from the default density, 1 kg/m³",
     NoGround "no_ground" "a scene without ground",
     NearMiss "near_miss" "edges that nearly touch: the gap between them is up to 1 % of the size of a block",
+    NoBlocks "no_blocks" "a scene without blocks",
+    NoWeight "no_weight" "blocks that all weigh nothing, without loads",
+    ImplausibleSize "implausible_size" "blocks whose typical size is above 100 m or below 0.1 mm",
+    BelowGround "below_ground" "blocks that all lie below the ground, or all beside it and above nothing",
     AngleRadians "angle_radians" "an angle that is probably a multiple of 15° given in radians, with three decimals or more",
 }
 
@@ -111,6 +118,9 @@ pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -
     notes.loads(file);
     notes.unused(file);
     notes.weights(file);
+    notes.emptiness();
+    notes.sizes();
+    notes.heights();
     if scene.ground.is_empty() && !file.blocks.is_empty() {
         let at = Trail::Top;
         notes.add(NoteCode::NoGround, &at.key("ground"), say::no_ground());
@@ -263,6 +273,56 @@ impl Notes<'_> {
                 let wording = say::unused_block(&block.id);
                 self.add(NoteCode::UnusedBlock, &top.key("blocks").index(i), wording);
             }
+        }
+    }
+
+    fn emptiness(&mut self) {
+        let top = Trail::Top;
+        let scene = self.scene;
+        if scene.blocks.is_empty() {
+            self.add(NoteCode::NoBlocks, &top.key("blocks"), say::no_blocks());
+        } else if scene.loads.is_empty() && scene.blocks.iter().all(|block| block.weight == 0.0) {
+            self.add(NoteCode::NoWeight, &top.key("blocks"), say::no_weight());
+        }
+    }
+
+    fn sizes(&mut self) {
+        let drawn = self.scene.blocks.iter().filter(|block| !block.body.is_schematic);
+        let mut sizes: Vec<f64> = drawn.map(|block| block.body.polygon.bounds().diagonal()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let Some(&typical) = sizes.get(sizes.len() / 2) else { return };
+        if !PLAUSIBLE_SIZES.contains(&typical) {
+            let top = Trail::Top;
+            self.add(NoteCode::ImplausibleSize, &top.key("blocks"), say::implausible_size(typical));
+        }
+    }
+
+    /// Adds a note if all blocks lie below the ground. Also adds it if no block lies above any part of the ground, and
+    /// none of their boxes meet. The blocks of a flat arch between two walls meet the walls.
+    fn heights(&mut self) {
+        let scene = self.scene;
+        let is_held =
+            scene.robots.iter().any(|r| r.holds.is_some()) || scene.frames.iter().any(|f| !f.holds.is_empty());
+        if is_held
+            || scene.ground.is_empty()
+            || scene.blocks.is_empty()
+            || scene.blocks.iter().any(|b| b.body.is_schematic)
+        {
+            return;
+        }
+        let ground: Vec<Bounds> = scene.ground.iter().map(|g| g.body.polygon.bounds()).collect();
+        let bottom = ground.iter().map(|b| b.min.y).fold(f64::INFINITY, f64::min);
+        let gap = scene.tolerance.gap;
+        let boxes = || scene.blocks.iter().map(|block| block.body.polygon.bounds());
+        let hang = || boxes().all(|b| b.max.y <= bottom + gap);
+        let carries = |block: &Bounds, part: &Bounds| {
+            let is_over = part.min.y < block.min.y && part.min.x < block.max.x && block.min.x < part.max.x;
+            is_over || block.grown(gap).intersects(*part)
+        };
+        let float = || boxes().all(|block| !ground.iter().any(|part| carries(&block, part)));
+        if hang() || float() {
+            let top = Trail::Top;
+            self.add(NoteCode::BelowGround, &top.key("ground"), say::below_ground());
         }
     }
 

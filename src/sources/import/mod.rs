@@ -34,6 +34,7 @@ mod region;
 mod svg;
 mod stone;
 mod subpath;
+mod trial;
 mod wkt;
 
 #[cfg(feature = "python")]
@@ -49,6 +50,7 @@ use draft::{Draft, PartGeometry, Role};
 use naming::Naming;
 use outline::Outlines;
 use scale::Scale;
+use trial::Trial;
 
 /// The default largest distance of a chord from its curve, and the default gap, as fractions of the size of the
 /// drawing. This is about a pixel on a screen; nobody draws more accurately by hand.
@@ -169,7 +171,7 @@ pub struct Snapped {
 }
 
 /// The reasons why a drawing cannot be imported.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DrawingProblems {
     /// The problems, at least one.
@@ -178,11 +180,13 @@ pub struct DrawingProblems {
     pub remarks: Vec<Remark>,
     /// Sentences that explain how the drawing was read.
     pub notes: Vec<String>,
+    /// The scene file, if overlaps of bodies are its only problem. [`Scene::from_json`] refuses it.
+    pub overlapping: Option<SceneFile>,
 }
 
 impl DrawingProblems {
     fn of(problems: Vec<Remark>) -> DrawingProblems {
-        DrawingProblems { problems, remarks: Vec::new(), notes: Vec::new() }
+        DrawingProblems { problems, remarks: Vec::new(), notes: Vec::new(), overlapping: None }
     }
 
     fn new(why: impl Into<String>) -> DrawingProblems {
@@ -360,28 +364,28 @@ fn build_scene(
         return Err(DrawingProblems { remarks: draft.remarks, notes: draft.notes, ..DrawingProblems::new(why) });
     }
     if let Some(problem) = structure_problem(&outlines) {
-        return Err(DrawingProblems { problems: vec![problem], remarks: draft.remarks, notes: Vec::new() });
+        return Err(DrawingProblems { remarks: draft.remarks, ..DrawingProblems::of(vec![problem]) });
     }
     let gap = options.gap.unwrap_or_else(|| (LENGTH_TOL * size).min(MAX_GAP_TO_THICKNESS * outlines.thinnest()));
     let names = name::unique_names(&outlines);
+    let trial = Trial { drawn: outlines.clone(), names: &names, size, gap };
     let snapped = outlines.snap(&mut draft, &names, gap);
     if gap > 0.0 {
         draft.notes.push(format!("edges within {} m of each other are moved so that they touch", scale::short(gap)));
     }
     let scene = scene_file::scene(&outlines, &names, &mut draft, title, size, &options.scene);
-    let text = scene.to_json();
-    // Nearby edges are already snapped together, so any overlap that is left is an error of the drawing. Check the
-    // scene again, and allow no overlap beyond the tolerance.
-    let read = Scene::from_json(&text).and_then(|read| {
-        if read.penetrations.is_empty() { Ok(read) } else { Scene::from_json_within(&text, Some(read.tolerance.gap)) }
-    });
-    match read {
-        Ok(_) => Ok(Imported { scene, notes: draft.notes, remarks: draft.remarks, snapped }),
-        Err(problems) => Err(DrawingProblems {
-            problems: problems.list.iter().map(|p| outlines.located(p)).collect(),
-            remarks: draft.remarks,
-            notes: Vec::new(),
-        }),
+    match trial::checked(&scene.to_json()) {
+        Ok(read) => {
+            draft.notes.extend(trial.lonely(&read, &outlines));
+            Ok(Imported { scene, notes: draft.notes, remarks: draft.remarks, snapped })
+        }
+        Err(problems) => {
+            let overlaps = trial.overlaps(&outlines, &problems.list);
+            let overlapping = overlaps.is_some().then_some(scene);
+            let each = || problems.list.iter().map(|p| outlines.located(p)).collect();
+            let problems = overlaps.map_or_else(each, |remark| vec![remark]);
+            Err(DrawingProblems { problems, remarks: draft.remarks, notes: Vec::new(), overlapping })
+        }
     }
 }
 

@@ -17,6 +17,7 @@ const MAX_COORDINATE: f64 = 1e12;
 pub(super) const NO_GROUND: &str = "no part of the drawing is ground, so nothing supports the blocks";
 
 /// The bodies and robots of a drawing.
+#[derive(Clone)]
 pub(super) struct Outlines {
     /// The parts of the ground, then the blocks, in the order of the drawing.
     pub(super) bodies: Vec<Body>,
@@ -24,6 +25,7 @@ pub(super) struct Outlines {
 }
 
 /// A block or a part of the ground.
+#[derive(Clone)]
 pub(super) struct Body {
     pub(super) kind: Role,
     pub(super) name: String,
@@ -34,6 +36,7 @@ pub(super) struct Body {
 }
 
 /// A robot with its grip point.
+#[derive(Clone)]
 pub(super) struct Robot {
     pub(super) name: String,
     pub(super) element: String,
@@ -191,19 +194,17 @@ impl Outlines {
         self.bodies.iter().filter(|b| b.kind == Role::Ground).count()
     }
 
+    /// Returns the body to which a problem of the scene belongs.
+    pub(super) fn body_of(&self, problem: &Problem) -> Option<&Body> {
+        let block = entry(problem, "blocks").map(|i| self.ground() + i);
+        self.bodies.get(block.or_else(|| entry(problem, "ground"))?)
+    }
+
     /// Converts a problem of the scene to a remark about the element of the drawing.
     pub(super) fn located(&self, problem: &Problem) -> Remark {
         let ground = self.ground();
-        let number = |list: &str| -> Option<usize> {
-            let rest = problem.path.strip_prefix(list)?.strip_prefix('[')?;
-            rest.split(']').next()?.parse().ok()
-        };
-        let body = number("blocks")
-            .map(|i| ground + i)
-            .or_else(|| number("ground"))
-            .and_then(|i| self.bodies.get(i))
-            .map(|b| b.element.clone());
-        let robot = || number("robots").and_then(|i| self.robots.get(i)).map(|r| r.element.clone());
+        let body = self.body_of(problem).map(|b| b.element.clone());
+        let robot = || entry(problem, "robots").and_then(|i| self.robots.get(i)).map(|r| r.element.clone());
         // The user does not know the numbers of the ground's parts, so replace `ground[2]` by the name of its
         // element.
         let mut message = String::new();
@@ -223,6 +224,12 @@ impl Outlines {
             help: problem.help.clone(),
         }
     }
+}
+
+/// Returns the index of the entry of `list` to which a problem of the scene belongs.
+fn entry(problem: &Problem, list: &str) -> Option<usize> {
+    let rest = problem.path.strip_prefix(list)?.strip_prefix('[')?;
+    rest.split(']').next()?.parse().ok()
 }
 
 /// Returns the flattened closed outlines of a part. Open outlines are reported and left out.

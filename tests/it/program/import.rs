@@ -86,7 +86,7 @@ fn doubts_are_warnings_unless_strict() {
 #[test]
 fn a_refused_drawing_writes_nothing_and_ends_with_2() {
     let bench = bench();
-    let overlap = bench.run("import overlap.svg -o scene.json");
+    let overlap = bench.run("import overlap.svg --strict -o scene.json");
     assert_eq!(overlap.code, 2);
     assert!(
         overlap
@@ -109,6 +109,11 @@ fn a_refused_drawing_writes_nothing_and_ends_with_2() {
         assert!(ran.err.contains(why), "{line}: {}", ran.err);
     }
     assert!(!bench.made().contains(&"scene.json".to_owned()));
+    // A scene whose only problem is an overlap is written, so that it can be drawn.
+    let broken = bench.run("import overlap.svg -o broken.json");
+    assert!(broken.code == 2 && broken.err.contains("drystone render --broken broken.json"), "{}", broken.err);
+    assert_eq!(bench.run("render --broken broken.json -o broken.svg").code, 2);
+    assert!(bench.made().contains(&"broken.svg".to_owned()));
     let nowhere = bench.run("import drawing.svg -o nowhere/scene.json");
     assert_eq!(nowhere.code, 4, "{}", nowhere.err);
 }

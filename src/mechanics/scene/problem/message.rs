@@ -301,6 +301,31 @@ pub(in crate::mechanics::scene) fn no_ground() -> Wording {
     )
 }
 
+pub(in crate::mechanics::scene) fn no_blocks() -> Wording {
+    note("the scene has no blocks, so nothing can fall".into(), "add at least one block to `blocks`")
+}
+
+pub(in crate::mechanics::scene) fn no_weight() -> Wording {
+    note(
+        "all blocks weigh nothing, and there are no loads, so nothing can fall".into(),
+        "give `density`, `mass` or `weight`, and a `gravity` that is not 0",
+    )
+}
+
+pub(in crate::mechanics::scene) fn implausible_size(metres: f64) -> Wording {
+    note(
+        format!("a typical block is {} m large, which is probably a mistake", digits(metres)),
+        "lengths are in metres; give `units` such as { \"length\": \"mm\" } if they are not",
+    )
+}
+
+pub(in crate::mechanics::scene) fn below_ground() -> Wording {
+    note(
+        "no block lies above the ground".into(),
+        "y points up; if the coordinates come from a picture, in which y points down, change the signs of all y",
+    )
+}
+
 pub(in crate::mechanics::scene) fn angle_radians(angle: f64, degrees: f64) -> Wording {
     note(
         format!("the angle {} looks like {}° written in radians", digits(angle), digits(degrees)),
