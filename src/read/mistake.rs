@@ -139,12 +139,14 @@ pub struct Dialect {
     pub noun: &'static str,
     /// Returns the remedy for a cause, if the format has a better one than the reader.
     pub remedy: fn(Cause<'_>) -> Option<String>,
+    /// The number of lines before the text in its file. Messages that name another place count these lines too.
+    pub lines_before: usize,
 }
 
 impl Dialect {
     /// Creates a dialect without remedies of its own. `noun` says what a text describes, such as "options".
     pub const fn plain(noun: &'static str) -> Dialect {
-        Dialect { noun, remedy: |_| None }
+        Dialect { noun, remedy: |_| None, lines_before: 0 }
     }
 
     /// Returns the remedy of this format for a cause, or else the general remedy `general`.

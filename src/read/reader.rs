@@ -129,7 +129,11 @@ impl<'s> Reader<'s> {
                 let help = format!("write {number} without quotes");
                 return self.report(at, Mark::Value, Mistake::new(Kind::WrongType, message, help));
             }
+            (Expected::Number, NodeKind::Text(text)) if decimal(text).is_some() => {
+                format!("write {}, with a point and without quotes", decimal(text).unwrap_or_default())
+            }
             (Expected::Text, NodeKind::Number(_)) => format!("write \"{written}\", in quotes"),
+            (Expected::List, NodeKind::Text(text)) => format!("write a list in brackets: [\"{}\"]", shortened(text)),
             (Expected::List, NodeKind::Object(_)) => "write a list in brackets: [{…}]".into(),
             _ => format!("write {expected} here"),
         };
@@ -300,6 +304,7 @@ impl<'s> Reader<'s> {
         for (second, first) in repeated(entries) {
             let (line, column) = self.source.place(first.name_range.start);
             let key = shortened(&second.name);
+            let line = self.dialect.lines_before + line;
             let message = format!("the key `{key}` occurs twice; first in line {line}, column {column}");
             let mistake = Mistake::new(Kind::DuplicateKey, message, "remove one of the two keys");
             self.report(&at.key(&second.name), Mark::Key, mistake);
@@ -380,6 +385,12 @@ impl<'s> Reader<'s> {
         }
         Some(map)
     }
+}
+
+/// Returns a number with a decimal comma, such as `0,6`, with a decimal point; `None` for other text.
+fn decimal(text: &str) -> Option<String> {
+    let number = text.trim().replacen(',', ".", 1);
+    (number != text.trim() && number.parse::<f64>().is_ok_and(f64::is_finite)).then_some(number)
 }
 
 /// Returns the last entry of a list that is full: it says that there are more problems.

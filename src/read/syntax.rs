@@ -75,6 +75,7 @@ fn cause(text: &str, fault: SyntaxError, dialect: &Dialect) -> Explained {
             let help = match open {
                 Some((c, at)) => {
                     let (line, column) = Source::plain(text).place(at);
+                    let line = dialect.lines_before + line;
                     format!(
                         "the `{c}` opened in line {line}, column {column} is never closed; is a part of the file missing?"
                     )
@@ -121,6 +122,12 @@ fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>, dialect: &Dial
     if let Some((message, help)) = known_token(&text[token.clone()], dialect) {
         return (token, Kind::Syntax, message, help);
     }
+    if fault.why == Why::Key
+        && let Some(number) = decimal_comma(text, &token)
+    {
+        let message = format!("`{}` is not a number in JSON", number.replacen('.', ",", 1));
+        return (token, Kind::Syntax, message, format!("write {number}, with a point"));
+    }
     let quotes = "put strings and keys in double quotes".to_owned();
     let expected = |what: &str| {
         let message = format!("this is not JSON: expected {what}");
@@ -143,6 +150,16 @@ fn unexpected(text: &str, fault: SyntaxError, here: Range<usize>, dialect: &Dial
         _ => expected("a value"),
     };
     (here, Kind::Syntax, message, help)
+}
+
+/// If the digits at `token` follow a comma and other digits, as in `0,6`, returns the number with a decimal point.
+fn decimal_comma(text: &str, token: &Range<usize>) -> Option<String> {
+    let digits = &text[token.clone()];
+    let before = text[..token.start].strip_suffix(',')?;
+    let start = before.rfind(|c: char| !(c.is_ascii_digit() || c == '-')).map_or(0, |i| i + 1);
+    let whole = &before[start..];
+    let is_number = |t: &str| !t.is_empty() && t.bytes().all(|b| b.is_ascii_digit());
+    (is_number(whole.trim_start_matches('-')) && is_number(digits)).then(|| format!("{whole}.{digits}"))
 }
 
 /// Returns the range of bytes of the first line that a version control system wrote to mark a merge conflict. A line of

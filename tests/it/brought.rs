@@ -251,3 +251,32 @@ fn blocks_that_touch_nothing_are_counted_with_the_gap_that_joins_them() {
     assert_eq!(verdict(&joined), Verdict::Stable);
     assert!(!has_note(&joined, "touch no other body"), "{:?}", joined.notes);
 }
+
+#[test]
+fn a_crate_with_its_own_centre_of_mass_tips_or_slides_at_the_angle_by_hand() {
+    // The centre is 0.6 m from both edges and 0.9 m high: it tips at atan(0.6 / 0.9), or slides at atan(0.6) before.
+    let tips = (0.6_f64 / 0.9).atan().to_degrees();
+    let slides = 0.6_f64.atan().to_degrees();
+    assert!((tips - 33.69).abs() < 0.005 && (slides - 30.96).abs() < 0.005);
+    let verdict = |friction: f64, degrees: f64, place: &str| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let text = format!(
+            r#"{{ "drystone": 1, "friction": {friction}, "gravity": [{}, {}],
+                "ground": [{{ "polygon": [[-3, -1], [4, -1], [4, 0], [-3, 0]] }}],
+                "blocks": [{{ "id": "crate", "mass": 100, {place} }}] }}"#,
+            9.81 * sin,
+            -9.81 * cos
+        );
+        Analysis::new(&Scene::from_json(&text).expect("sound")).verdict()
+    };
+    let drawn = r#""polygon": [[0, 0], [1.2, 0], [1.2, 1.2], [0, 1.2]], "centre": [0.6, 0.9]"#;
+    // The centre moves with the outline: here the crate was drawn on its side.
+    let turned =
+        r#""polygon": [[0, 0], [1.2, 0], [1.2, 1.2], [0, 1.2]], "centre": [0.9, 0.6], "angle": 90, "at": [1.2, 0]"#;
+    for place in [drawn, turned] {
+        for (friction, limit) in [(0.7, tips), (0.6, slides)] {
+            assert_eq!(verdict(friction, limit - 0.01, place), Verdict::Stable, "{friction} {place}");
+            assert_eq!(verdict(friction, limit + 0.01, place), Verdict::Unstable, "{friction} {place}");
+        }
+    }
+}

@@ -8,6 +8,7 @@ mod contacts;
 mod fault;
 mod figures;
 mod import;
+mod mistakes;
 mod readme;
 mod render;
 mod safety;

@@ -268,7 +268,8 @@ impl SceneWork {
             Ok(bytes) => bytes,
             Err(why) => return Ok(self.refused(origin, &[problem(Code::NotReadable, why, "")])),
         };
-        let scene = match Scene::from_slice_within(bytes, self.level.contact_tolerance) {
+        let scene = match Scene::from_slice_after(record.line.map_or(0, |n| n - 1), bytes, self.level.contact_tolerance)
+        {
             Ok(scene) => scene,
             Err(problems) => return Ok(self.refused(origin, &problems.list)),
         };

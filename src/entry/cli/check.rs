@@ -56,6 +56,9 @@ pub(crate) struct Check {
 
 impl Check {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+        for file in source::foreign_files(&self.scenes)? {
+            terminal.note(&format!("{}: left out, because it has no key \"drystone\"", source::name(&file)));
+        }
         let outcomes = source::read_each(&self.scenes, self.what.frame, self.what.level.contact_tolerance)?;
         // For a single file, the JSON may have several lines. For several files, each file gets one line of JSON.
         let layout = if outcomes.len() == 1 { Layout::Lines } else { Layout::OneLine };

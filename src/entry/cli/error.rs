@@ -3,6 +3,7 @@
 //! No other file uses the crate `ariadne`, which prints the line of a scene file that contains a problem, with a mark
 //! below it. `ariadne` gets only this line, so that a long file takes no more time than a short one.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -12,11 +13,15 @@ use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::page::{Page, broken, seen};
 use crate::mechanics::scene::{Code, Problem, SceneError};
 use crate::pictures::drawing::style;
-use crate::text::line;
+use crate::text::{first_of, line};
 
 /// At most this many problems of one file are shown. If there are more, they usually have one cause, which is among
 /// the first.
 const MAX_SHOWN_PROBLEMS: usize = 30;
+/// If a file has more problems of one kind, only the first of them is shown, and the others are counted.
+const MAX_ALIKE_PROBLEMS: usize = 3;
+/// The largest number of paths that are listed for the other problems of a kind.
+const MAX_LISTED_PLACES: usize = 5;
 /// A line with more characters, or wider than the terminal, is not shown completely: an excerpt shows the characters
 /// around the problem.
 const MAX_LINE_CHARACTERS: usize = 160;
@@ -206,19 +211,57 @@ impl CliError {
 fn all(name: &str, text: Option<&str>, problems: &[Problem], width: Option<usize>) -> String {
     let name = line(name);
     let mut out = String::new();
-    for problem in problems.iter().take(MAX_SHOWN_PROBLEMS) {
+    let groups = grouped(problems);
+    for group in groups.iter().take(MAX_SHOWN_PROBLEMS) {
+        let problem = group[0];
         let place = text.zip(problem.span.clone()).and_then(|(text, span)| ProblemLine::new(text, span));
         out += &match place {
             Some(place) if place.is_shown_whole(problem, width) => pointed(&name, problem, &place, width),
             Some(place) => windowed(&name, problem, &place, width),
             None => plain(&name, problem),
         };
+        if let [_, next, ..] = group.as_slice() {
+            let places = first_of(group[1..].iter().map(|p| p.path.as_str()), MAX_LISTED_PLACES);
+            let _ = match group.len() - 1 {
+                1 => writeln!(out, "... and one more problem of this kind, at {}", line(&next.path)),
+                more => writeln!(out, "... and {more} more problems of this kind, at {}", line(&places)),
+            };
+        }
     }
-    let more = problems.len().saturating_sub(MAX_SHOWN_PROBLEMS);
+    let more: usize = groups.iter().skip(MAX_SHOWN_PROBLEMS).map(Vec::len).sum();
     if more > 0 {
         let _ = writeln!(out, "... and {more} more in {name}");
     }
     out
+}
+
+/// Groups problems that probably have one cause: more than [`MAX_ALIKE_PROBLEMS`] problems of one kind, at paths that
+/// differ only in indices, with the same remedy. If robots take second blocks, this is one misconception about `release`. The groups are
+/// in the order of their first problems.
+fn grouped(problems: &[Problem]) -> Vec<Vec<&Problem>> {
+    let pattern = |problem: &Problem| -> (Code, String, String) {
+        if problem.code == Code::HoldsTwo {
+            return (problem.code, String::new(), String::new());
+        }
+        let path: String = problem.path.split(']').map(|part| part.split('[').next().unwrap_or("")).collect();
+        (problem.code, path, problem.help.clone())
+    };
+    let mut by_pattern: BTreeMap<(Code, String, String), Vec<&Problem>> = BTreeMap::new();
+    for problem in problems {
+        by_pattern.entry(pattern(problem)).or_default().push(problem);
+    }
+    let mut groups = Vec::new();
+    for problem in problems {
+        let key = pattern(problem);
+        match by_pattern.get(&key) {
+            Some(group) if group.len() <= MAX_ALIKE_PROBLEMS && problem.code != Code::HoldsTwo => {
+                groups.push(vec![problem])
+            }
+            Some(_) => groups.extend(by_pattern.remove(&key)),
+            None => {}
+        }
+    }
+    groups
 }
 
 /// The line of a problem, and the range of the problem in this line, in characters.

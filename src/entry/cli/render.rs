@@ -79,6 +79,9 @@ impl Render {
         let format = destination.format(self.draw.picture.requested_format())?;
         self.draw.check(format)?;
         let scenes = source::files(&self.scenes)?;
+        for file in source::foreign_files(&self.scenes)? {
+            terminal.note(&format!("{}: left out, because it has no key \"drystone\"", source::name(&file)));
+        }
         self.check_count(&scenes, &destination, format, terminal)?;
         self.check_parts(&destination)?;
         let fonts = self.draw.picture.fonts()?;

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use crate::entry::cli::error::CliError;
 use crate::entry::request::FrameChoice;
 use crate::mechanics::scene::{Scene, isolate};
+use crate::products::snapshot::discovery::looks_like_scene;
 
 /// A scene and the path from which it was read.
 #[derive(Debug)]
@@ -88,10 +89,20 @@ pub(crate) fn read_each(
     Ok(paths.into_iter().map(outcome).collect())
 }
 
-/// Replaces each folder by the `.json` files in it, sorted by name. Subfolders are not read. Returns an error if a
-/// folder has no `.json` file.
+/// Replaces each folder by the scene files in it, sorted by name. Subfolders are not read. Returns an error if a folder
+/// has no scene file.
 pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
-    let mut all = Vec::new();
+    Ok(sorted(paths)?.0)
+}
+
+/// Returns the `.json` files in the folders among `paths` that are no scenes, because they have no key `drystone`.
+pub(crate) fn foreign_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
+    Ok(sorted(paths)?.1)
+}
+
+/// Returns the files at `paths` and the scene files in folders, and the other `.json` files in folders.
+fn sorted(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), CliError> {
+    let (mut all, mut foreign) = (Vec::new(), Vec::new());
     for path in paths {
         if !path.is_dir() {
             all.push(path.clone());
@@ -100,15 +111,25 @@ pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
         let listed = fs::read_dir(path)
             .and_then(|entries| (entries.map(|entry| entry.map(|e| e.path()))).collect::<io::Result<Vec<PathBuf>>>());
         let listed = listed.map_err(|error| CliError::not_read(name(path), error))?;
-        let is_scene = |file: &PathBuf| file.extension() == Some(OsStr::new("json"));
-        let mut scenes: Vec<PathBuf> = (listed.into_iter()).filter(|file| is_scene(file) && file.is_file()).collect();
-        if scenes.is_empty() {
+        let is_json = |file: &PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+        let mut found: Vec<PathBuf> = (listed.into_iter()).filter(|file| is_json(file) && file.is_file()).collect();
+        if found.is_empty() {
             return Err(CliError::not_read(name(path), "the folder contains no .json files"));
         }
-        scenes.sort();
+        found.sort();
+        // A file that cannot be read is reported later.
+        let is_scene = |file: &PathBuf| fs::read(file).map_or(true, |bytes| looks_like_scene(&bytes));
+        let (mut scenes, mut others): (Vec<PathBuf>, Vec<PathBuf>) = found.into_iter().partition(is_scene);
+        if scenes.is_empty() {
+            return Err(CliError::not_read(
+                name(path),
+                "none of the .json files in the folder has the key \"drystone\"",
+            ));
+        }
         all.append(&mut scenes);
+        foreign.append(&mut others);
     }
-    Ok(all)
+    Ok((all, foreign))
 }
 
 /// Reads a file, or standard input for `-`.

@@ -58,8 +58,8 @@ impl Input {
     }
 }
 
-/// An iterator over the records of several inputs. Every line is a record, even an empty one, so that answer N
-/// belongs to line N. The last line needs no line ending.
+/// An iterator over the records of several inputs. Every line is a record, except for blank lines, which are skipped but
+/// counted. The last line needs no line ending.
 #[derive(Debug)]
 pub struct Records {
     inputs: std::vec::IntoIter<Input>,
@@ -117,6 +117,10 @@ impl Iterator for Records {
                 let (size, bytes) = next_line(&mut open.reader);
                 if size > 0 || bytes.is_err() {
                     open.line = number;
+                    if bytes.as_ref().is_ok_and(|bytes| bytes.iter().all(u8::is_ascii_whitespace)) {
+                        self.read.fetch_add(size as u64, Ordering::Relaxed);
+                        continue;
+                    }
                     let record = Record { file: open.file.clone(), line: Some(number), bytes };
                     // Stop reading this stream if it cannot be read: it could return the same error forever.
                     if size == 0 {

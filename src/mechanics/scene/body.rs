@@ -66,6 +66,8 @@ pub struct Block {
     pub body: Body,
     /// The point at which the weight acts, metres: the centroid of the polygon, or the centre that the file gives.
     pub centroid: Point,
+    /// Whether the file gives the centre of mass, so that it need not be the centroid of the polygon.
+    pub(crate) has_own_centre: bool,
     /// Weight in newtons, along gravity, at least 0.
     pub weight: f64,
     /// Whether the weight is computed from area, thickness and density, because the file gives neither weight nor mass.

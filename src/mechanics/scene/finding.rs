@@ -4,14 +4,16 @@
 //! Problems in an entry that could not be read are not added. For example, a block with an unreadable polygon is not
 //! also reported to have no outline.
 
+use std::collections::BTreeMap;
+
 use super::format::{BlockEntry, MaterialEntry, RobotEntry, UnitsEntry};
 use super::problem::{Problem, SceneError, Wording};
 use crate::read::reader::{MAX_FINDINGS, more};
 use crate::read::{Mark, Source};
 use crate::read::{Path, Segment, Trail};
 
-/// Only this number of problems, the first ones, may suggest a similar name. Each suggestion needs a comparison with
-/// all names.
+/// Only this number of unknown names, the first ones, may suggest a similar name. Each suggestion needs a comparison
+/// with all names.
 const MAX_SUGGESTIONS: usize = 50;
 
 /// A problem and its place in the file.
@@ -33,12 +35,14 @@ pub(super) struct Findings {
     pub(super) unread: UnreadParts,
     /// The units of the file, for messages.
     pub(super) units: UnitsEntry,
+    /// The number of unknown names that were looked up for a suggestion, by the kind of the named objects.
+    suggestions: BTreeMap<&'static str, usize>,
 }
 
 impl Findings {
     /// Creates an empty list of problems. `unread` contains the parts of the file that could not be read.
     pub(super) fn with_unread(unread: UnreadParts) -> Findings {
-        Findings { list: Vec::new(), unread, units: UnitsEntry::default() }
+        Findings { unread, ..Findings::default() }
     }
 
     /// True if some part of the entry to which the path `at` belongs could not be read. An entry is an element of
@@ -53,10 +57,12 @@ impl Findings {
         self.list.len() > MAX_FINDINGS
     }
 
-    /// True if there are so few problems that the message of the next problem may suggest a similar name. Each
+    /// True if the message about the next unknown name of a `sort` of objects may suggest a similar name. Each
     /// suggestion takes a search through all names.
-    pub(super) fn hints(&self) -> bool {
-        self.list.len() < MAX_SUGGESTIONS
+    pub(super) fn may_suggest(&mut self, sort: &'static str) -> bool {
+        let used = self.suggestions.entry(sort).or_default();
+        *used += 1;
+        *used <= MAX_SUGGESTIONS
     }
 
     /// Reports a problem of the value at the path `at`, unless some part of the entry that contains this path could not

@@ -183,7 +183,7 @@ struct Closed<'d> {
 /// 3. If many corners still lie slightly off the edges that they should touch, the coordinates are noisy: snap these
 ///    corners too.
 /// 4. Replace the outlines that changed by more than rounding, and count the corners that moved.
-/// 5. Set the gap and the assumed error of the coordinates of every body, and the centroid of every block.
+/// 5. Set the gap and the assumed error of the coordinates of every body, and the centroid of every block that has no centre of its own.
 pub(super) fn heal(ground: &mut [Option<Ground>], blocks: &mut [Option<Block>], reach: HealingReach) -> Healed {
     let drawn = Drawn::new(ground, blocks);
     let closed = drawn.without_noise(drawn.within_reach(reach));
@@ -198,7 +198,7 @@ pub(super) fn heal(ground: &mut [Option<Ground>], blocks: &mut [Option<Block>], 
         body.gap = reach.gap_of(*size, farthest);
         body.rounding = reach.rounding_of(*size, farthest);
     }
-    for block in blocks.iter_mut().flatten() {
+    for block in blocks.iter_mut().flatten().filter(|block| !block.has_own_centre) {
         block.centroid = block.body.polygon.centroid();
     }
     healed

@@ -76,8 +76,8 @@ impl<'f> Names<'f> {
         number
     }
 
-    fn unknown(&self, findings: &Findings, name: &str) -> problem::Wording {
-        if findings.hints() {
+    fn unknown(&self, findings: &mut Findings, name: &str) -> problem::Wording {
+        if findings.may_suggest(self.sort) {
             problem::message::unknown_name(self.sort, name, &self.list)
         } else {
             problem::message::another_unknown_name(self.sort, name)

@@ -339,7 +339,8 @@ impl Notes<'_> {
         };
         let has_density = |name: &str| (file.materials.0.iter()).any(|m| m.0 == name && m.1.density.is_some());
         let light: Vec<usize> = (file.blocks.iter().enumerate())
-            .filter(|(_, b)| b.weight.is_none() && b.mass.is_none() && b.density.is_none() && b.centre.is_none())
+            .filter(|(_, b)| b.weight.is_none() && b.mass.is_none() && b.density.is_none())
+            .filter(|(_, b)| b.centre.is_none() || b.has_outline())
             .filter(|(_, b)| !b.material.as_deref().is_some_and(has_density))
             .map(|(i, _)| i)
             .collect();

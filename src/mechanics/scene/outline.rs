@@ -4,7 +4,7 @@ use super::finding::Findings;
 use super::format::{CellEntry, CellHalf, Pair};
 use super::number::{SMALLEST_EXTENT, is_sane};
 use super::problem;
-use crate::geometry::{Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector};
+use crate::geometry::{Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector, sin_cos_degrees};
 use crate::read::Trail;
 
 /// The largest absolute value of a lattice coordinate in a file. Up to this value, sums and products of a few
@@ -178,6 +178,14 @@ fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64
         return None;
     }
     Some((pair[0] as i64, pair[1] as i64))
+}
+
+/// Rotates a point by `angle` degrees anticlockwise about the origin of its body and then moves it by `at`, like
+/// [`placed`]. If the scene has a lattice, `at` is in lattice coordinates.
+pub(super) fn placed_point(lattice: Option<Lattice>, point: Pair, at: Pair, angle: f64) -> Point {
+    let (sin, cos) = sin_cos_degrees(angle);
+    let by = lattice.map_or(Vector::new(at[0], at[1]), |l| l.point(at[0], at[1]).coords);
+    Point::new(cos * point[0] - sin * point[1], sin * point[0] + cos * point[1]) + by
 }
 
 /// Rotates the outline by `angle` degrees anticlockwise about its origin and then moves it by `at`. Returns the polygon

@@ -11,7 +11,7 @@ use super::note::{self, Lines};
 use super::problem::SceneError;
 use super::problem::remedy::SCENE;
 use super::resolution::resolve;
-use crate::read::{self, Read, Reader, Source, Trail, syntax};
+use crate::read::{self, Dialect, Read, Reader, Source, Trail, syntax};
 
 impl Scene {
     /// Reads and checks a scene file.
@@ -41,9 +41,16 @@ impl Scene {
     /// # Errors
     /// The same errors as [`Scene::from_json`].
     pub fn from_json_within(text: &str, tolerance: Option<f64>) -> Result<Scene, SceneError> {
+        Scene::from_json_after(0, text, tolerance)
+    }
+
+    /// Reads and checks a scene file, like [`Scene::from_json_within`]. In its file, `lines_before` lines stand before
+    /// it. Lines in messages count them, but not the lines of the problems.
+    fn from_json_after(lines_before: usize, text: &str, tolerance: Option<f64>) -> Result<Scene, SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let source = syntax::json(text, &SCENE).map_err(|broken| SceneError::broken(text, broken))?;
-        let (mut file, findings, unread) = read(&source);
+        let dialect = Dialect { lines_before, ..SCENE };
+        let source = syntax::json(text, &dialect).map_err(|broken| SceneError::broken(text, broken))?;
+        let (mut file, findings, unread) = read(&source, &dialect);
         file.tolerate(tolerance);
         let all = match resolve(&file, unread) {
             Ok(mut scene) if findings.is_empty() => {
@@ -71,9 +78,19 @@ impl Scene {
     /// # Errors
     /// The same errors as [`Scene::from_slice`].
     pub fn from_slice_within(bytes: &[u8], tolerance: Option<f64>) -> Result<Scene, SceneError> {
+        Scene::from_slice_after(0, bytes, tolerance)
+    }
+
+    /// Reads and checks the bytes of a scene file, like [`Scene::from_slice_within`]. In its file, `lines_before` lines
+    /// stand before it.
+    pub(crate) fn from_slice_after(
+        lines_before: usize,
+        bytes: &[u8],
+        tolerance: Option<f64>,
+    ) -> Result<Scene, SceneError> {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         match std::str::from_utf8(bytes) {
-            Ok(text) => Scene::from_json_within(text, tolerance),
+            Ok(text) => Scene::from_json_after(lines_before, text, tolerance),
             Err(error) => {
                 let text = String::from_utf8_lossy(bytes);
                 Err(SceneError::broken(&text, syntax::not_utf8(bytes, error.valid_up_to(), &text)))
@@ -156,8 +173,8 @@ pub fn falling_starter() -> &'static str {
 
 /// Reads the scene file from the syntax tree of `source`. Returns the file, the problems found while reading, and the
 /// parts that could not be read.
-pub(super) fn read(source: &Source<'_>) -> (SceneFile, Vec<Finding>, UnreadParts) {
-    let mut reader = Reader::new(source, &SCENE);
+pub(super) fn read<'s>(source: &'s Source<'s>, dialect: &'s Dialect) -> (SceneFile, Vec<Finding>, UnreadParts) {
+    let mut reader = Reader::new(source, dialect);
     let file = match &source.tree {
         Some(tree) => SceneFile::read(&mut reader, &tree.root, &Trail::Top).unwrap_or_default(),
         None => SceneFile::default(),
@@ -180,7 +197,7 @@ mod tests {
 
     fn by_tree(text: &str) -> Option<SceneFile> {
         let source = syntax::json(text, &SCENE).ok()?;
-        let (file, findings, _) = read(&source);
+        let (file, findings, _) = read(&source, &SCENE);
         findings.is_empty().then_some(file)
     }
 

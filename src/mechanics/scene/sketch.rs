@@ -65,7 +65,7 @@ impl Sketch {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let text = String::from_utf8_lossy(bytes);
         if let Ok(source) = syntax::json(&text, &SCENE) {
-            let (mut file, _, unread) = reading::read(&source);
+            let (mut file, _, unread) = reading::read(&source, &SCENE);
             file.tolerate(tolerance);
             sketch.units = file.units.unwrap_or_default();
             (sketch.bodies, sketch.scene) = resolution::sketch(&file, unread);

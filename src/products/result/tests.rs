@@ -25,6 +25,7 @@ fn scene() -> Scene {
         id: id.into(),
         body: body.clone(),
         centroid: Point::new(1.0, 0.7),
+        has_own_centre: false,
         weight: 5.0,
         weighs_by_area: false,
     };

@@ -287,7 +287,7 @@ impl SnapshotSearch {
 ///
 /// A file counts as a scene if it contains the text `"drystone"`, with the quotation marks. A file that is not valid
 /// JSON counts as a damaged scene if it is empty, is not UTF-8, or contains `drystone`, `blocks` or `polygon`.
-fn looks_like_scene(bytes: &[u8]) -> bool {
+pub(crate) fn looks_like_scene(bytes: &[u8]) -> bool {
     let has = |word: &[u8]| bytes.windows(word.len()).any(|w| w == word);
     if has(b"\"drystone\"") {
         return true;

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::number::{self, NO_BREAK, digits, listed, place, quantity};
 use crate::mechanics::analysis::{Failure, FrameAnalysis};
 use crate::mechanics::scene::{BlockId, BodyId, Scene, Unit};
+use crate::mechanics::statics::interface::{ContactKind, Interfaces};
 use crate::text::first_of;
 
 /// Largest number of unsupported blocks that are named. All further blocks are only counted.
@@ -160,7 +161,35 @@ pub fn unsupported(scene: &Scene, frame_analysis: &FrameAnalysis, max: usize) ->
             sentences.push(format!("nothing carries {names}: {reason}"));
         }
     }
+    sentences.extend(touching_corner(scene, frame_analysis));
     sentences
+}
+
+/// In scenes with more blocks, no corner contacts are searched for an explanation.
+const MAX_BLOCKS_WITH_CORNERS: usize = 1000;
+
+/// If a corner of an unsupported block touches another body, returns a sentence that explains why this carries nothing.
+/// Returns `None` if there is no such corner, or if corners carry force in this scene.
+fn touching_corner(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
+    let unsupported = &frame_analysis.unsupported;
+    if scene.corner_contacts || unsupported.is_empty() || scene.blocks.len() > MAX_BLOCKS_WITH_CORNERS {
+        return None;
+    }
+    let is_unsupported = |id: &BodyId| matches!(id, BodyId::Block(block) if unsupported.contains(block));
+    let placed = frame_analysis.contacts.iter().flat_map(|contact| contact.interface.bodies);
+    let placed: BTreeSet<BodyId> = placed.chain(unsupported.iter().copied().map(BodyId::Block)).collect();
+    let is_placed = |id: &BodyId| matches!(id, BodyId::Ground(_)) || placed.contains(id);
+    let with_corners = Scene { corner_contacts: true, ..scene.clone() };
+    let corner = Interfaces::new(&with_corners).all.into_iter().find(|interface| {
+        interface.kind == ContactKind::Corner
+            && interface.bodies.iter().any(is_unsupported)
+            && interface.bodies.iter().all(is_placed)
+    })?;
+    let [a, b] = corner.bodies.map(|body| scene.name(body));
+    Some(format!(
+        "{a} and {b} touch only at a corner, at {}, which carries force only in a scene with \"corner_contacts\": true",
+        place(corner.middle(), scene.units)
+    ))
 }
 
 /// Returns the blocks that a chain of contacts connects to the ground or to a block that a robot holds, found by a

@@ -48,13 +48,11 @@ fn every_line_has_an_answer_in_the_same_order() {
     let ran = bench.run_with("batch", input.as_bytes());
     assert_eq!((ran.code, &*ran.err), (2, ""), "a line is invalid");
     let answers = lines(&ran.out);
-    assert_eq!(answers.len(), 5);
+    assert_eq!(answers.len(), 4, "a blank line is skipped, but counted");
     assert_eq!(answers[0], json!({ "line": 1, "scene": "A lintel", "verdict": "stable" }));
     assert_eq!(answers[1]["verdict"], "unstable", "the worse of the two frames");
     assert_eq!(answers[2]["problems"][0]["line"], 3);
-    assert_eq!(answers[3]["line"], 4, "an empty line also has an answer");
-    assert_eq!(answers[3]["problems"].as_array().map(Vec::len), Some(1));
-    assert_eq!(answers[4]["verdict"], "stable");
+    assert_eq!((&answers[3]["line"], &answers[3]["verdict"]), (&json!(5), &json!("stable")));
 }
 
 #[test]

@@ -36,7 +36,8 @@ pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
 
 /// Returns the CSV row of a scene that is not valid. The row contains only the first problem of the scene.
 pub(super) fn problem_row(origin: &Origin, problems: &[Problem]) -> String {
-    let words = problems.first().map_or(String::new(), |problem| match problem.line {
+    // If the scene is a line of the input, its own lines do not matter.
+    let words = problems.first().map_or(String::new(), |problem| match origin.line.unwrap_or(problem.line) {
         0 => problem.message.clone(),
         line => format!("line {line}: {}", problem.message),
     });

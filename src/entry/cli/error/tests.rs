@@ -91,8 +91,14 @@ fn a_problem_fits_the_terminal_and_is_marked_at_its_position() {
 #[test]
 fn thirty_problems_are_shown_and_the_rest_is_counted() {
     let text = "{ \"weight\": -3 }";
-    let list = vec![problem(text, "-3"); 42];
+    let different = |i: usize| Problem { help: format!("give {i} or more"), ..problem(text, "-3") };
+    let list: Vec<Problem> = (0..42).map(different).collect();
     assert!(shown(text, &list).ends_with("... and 12 more in a.json\n"));
+    // Problems of one kind are one message.
+    let alike = vec![problem(text, "-3"); 42];
+    let found = shown(text, &alike);
+    assert!(found.contains("... and 41 more problems of this kind, at blocks[1].weight"), "{found}");
+    assert_eq!(found.matches("a weight of -3 N").count(), 1, "{found}");
 }
 
 #[test]

@@ -58,8 +58,9 @@ entry! {
         angle: Option<f64> [extend("default" = 0.0)],
         /// Name of the material of the body.
         material: Option<String>,
-        /// Point [x, y] in the length unit of the scene at which the weight acts, for a block without an outline. Such
-        /// a block needs a `mass` or a `weight`, and touches other bodies only at the `contacts` of the scene.
+        /// Point [x, y] in the length unit of the scene at which the weight acts; `angle` and `at` rotate and move it
+        /// with the outline. Default: the centroid of the outline. A block without an outline needs a `centre`, and a
+        /// `mass` or a `weight`; it touches other bodies only at the `contacts` of the scene.
         centre: Option<Pair>,
         /// Weight of the block in the force unit of the scene, in the direction of gravity, at least 0. A `weight`
         /// takes precedence over `mass` and over every density.
@@ -76,6 +77,11 @@ entry! {
 }
 
 impl BlockEntry {
+    /// True if the block has a key that gives its outline.
+    pub(in crate::mechanics::scene) fn has_outline(&self) -> bool {
+        self.polygon.is_some() || self.cells.is_some() || self.shape.is_some()
+    }
+
     /// Creates a block with this id.
     pub fn new(id: impl Into<String>) -> BlockEntry {
         BlockEntry::default().id(id)

@@ -21,7 +21,7 @@ pub(in crate::mechanics::scene) fn another_unknown_name(sort: &str, name: &str) 
     new_wording(
         Code::UnknownName,
         format!("unknown {sort} `{}`", shortened(name)),
-        "the first problem of this kind lists the known names or the nearest one",
+        format!("the first problem with an unknown {sort} lists the known names or the nearest one"),
     )
 }
 

@@ -3,7 +3,7 @@
 use crate::read::{Cause, Dialect, Expected, NodeKind};
 
 /// The dialect of scene files.
-pub(in crate::mechanics::scene) const SCENE: Dialect = Dialect { noun: "scene", remedy };
+pub(in crate::mechanics::scene) const SCENE: Dialect = Dialect { noun: "scene", remedy, lines_before: 0 };
 
 fn remedy(cause: Cause<'_>) -> Option<String> {
     let words = match cause {
@@ -17,11 +17,15 @@ fn remedy(cause: Cause<'_>) -> Option<String> {
                     "write [x, y], where y points up: {size} downwards is [0, -{size}]; gravity already acts on every block"
                 ));
             }
-            (Expected::Number, NodeKind::Text(_)) if at.ends_in("friction") => {
+            (Expected::Number, NodeKind::Text(text)) if at.ends_in("friction") && !text.contains(',') => {
                 "write a number such as 0.6; to name what a body is made of, use `material`, and give its friction in `materials`"
             }
-            (Expected::Number, NodeKind::Text(_)) => {
+            (Expected::Number, NodeKind::Text(text)) if !text.contains(',') => {
                 "write a number without a unit; the units are metres, newtons, kilograms and degrees, unless the file gives other `units`"
+            }
+            (Expected::Object, NodeKind::Text(unit)) if at.ends_in("units") => {
+                let key = if matches!(unit.as_ref(), "N" | "kN" | "MN" | "lbf") { "force" } else { "length" };
+                return Some(format!("write \"units\": {{ \"{key}\": {written} }}"));
             }
             // Only the version of the format is read as a whole number.
             (Expected::Whole, _) => "write 1, the version of the scene format",

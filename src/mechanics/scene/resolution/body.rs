@@ -141,11 +141,12 @@ impl Resolution<'_> {
         let weight = at_least_zero(findings, at, "weight", entry.weight);
         let mass = at_least_zero(findings, at, "mass", entry.mass);
         let density = at_least_zero(findings, at, "density", entry.density);
-        if let Some(centre) = entry.centre {
+        if let Some(centre) = entry.centre.filter(|_| !entry.has_outline()) {
             let newtons = weight.map(|w| w * self.units.force().size);
             let weight = newtons.or(mass.map(|mass| mass * self.gravity.norm()));
             return self.schematic_block(findings, at, entry, i, centre, weight);
         }
+        let centre = entry.centre.filter(|centre| is_sane(findings, &at.key("centre"), centre));
         let body = self.body(findings, at, &entry.into())?;
         let area = match (&body.cells, self.lattice) {
             (Some(cells), Some(lattice)) => cells.len() as f64 * lattice.cell_area(),
@@ -165,7 +166,18 @@ impl Resolution<'_> {
             findings.add(at, problem::message::too_heavy(weight, MAX_MAGNITUDE));
             return None;
         }
-        Some(Block { id: self.ids[i].clone(), centroid: body.polygon.centroid(), body, weight, weighs_by_area })
+        let own_centre = centre.map(|centre| {
+            let place = entry.at.unwrap_or([0.0, 0.0]);
+            outline::placed_point(self.lattice, centre, place, entry.angle.unwrap_or(0.0))
+        });
+        Some(Block {
+            id: self.ids[i].clone(),
+            centroid: own_centre.unwrap_or_else(|| body.polygon.centroid()),
+            has_own_centre: own_centre.is_some(),
+            body,
+            weight,
+            weighs_by_area,
+        })
     }
 }
 
@@ -181,13 +193,7 @@ impl Resolution<'_> {
         centre: Pair,
         weight: Option<f64>,
     ) -> Option<Block> {
-        let others = [
-            ("polygon", entry.polygon.is_some()),
-            ("cells", entry.cells.is_some()),
-            ("shape", entry.shape.is_some()),
-            ("at", entry.at.is_some()),
-            ("angle", entry.angle.is_some()),
-        ];
+        let others = [("at", entry.at.is_some()), ("angle", entry.angle.is_some())];
         let other = others.iter().find(|other| other.1);
         if let Some((other, _)) = other {
             findings.add(at, problem::outline::two_outlines("centre", other));
@@ -217,6 +223,7 @@ impl Resolution<'_> {
                 // This outline is a placeholder. `add_schematic_outlines` replaces it when the contacts are known.
                 ..self.schematic([vec![centroid], beside.to_vec()].concat())
             },
+            has_own_centre: true,
             weight,
             weighs_by_area: false,
         })

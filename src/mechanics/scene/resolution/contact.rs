@@ -19,7 +19,7 @@ impl Resolution<'_> {
     /// True if the file lists its contacts, or has a block without an outline. Contacts are then not computed from
     /// outlines, and bodies are not healed.
     pub(super) fn has_schematic_bodies(&self) -> bool {
-        !self.file.contacts.is_empty() || self.file.blocks.iter().any(|b| b.centre.is_some())
+        !self.file.contacts.is_empty() || self.file.blocks.iter().any(|b| b.centre.is_some() && !b.has_outline())
     }
 
     /// Returns the contacts listed in the file whose bodies, point and normal are valid. Reports all problems. A

@@ -13,6 +13,7 @@ pub use crate::read::{Notation, Problem as StyleProblem, Problems as StyleProble
 
 /// The dialect of style files.
 const STYLE: Dialect = Dialect {
+    lines_before: 0,
     noun: "style",
     remedy: |cause| match cause {
         Cause::NotToml => Some("correct the text here; the name of a style file in JSON must end in .json".into()),
