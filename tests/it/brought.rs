@@ -255,11 +255,11 @@ fn blocks_that_touch_nothing_are_counted_with_the_gap_that_joins_them() {
 #[test]
 fn a_crate_with_its_own_centre_of_mass_tips_or_slides_at_the_angle_by_hand() {
     // The centre is 0.6 m from both edges and 0.9 m high: it tips at atan(0.6 / 0.9), or slides at atan(0.6) before.
-    let tips = (0.6_f64 / 0.9).atan().to_degrees();
-    let slides = 0.6_f64.atan().to_degrees();
+    let tips = libm::atan(0.6 / 0.9).to_degrees();
+    let slides = libm::atan(0.6).to_degrees();
     assert!((tips - 33.69).abs() < 0.005 && (slides - 30.96).abs() < 0.005);
     let verdict = |friction: f64, degrees: f64, place: &str| {
-        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (sin, cos) = libm::sincos(degrees.to_radians());
         let text = format!(
             r#"{{ "drystone": 1, "friction": {friction}, "gravity": [{}, {}],
                 "ground": [{{ "polygon": [[-3, -1], [4, -1], [4, 0], [-3, 0]] }}],
@@ -267,7 +267,7 @@ fn a_crate_with_its_own_centre_of_mass_tips_or_slides_at_the_angle_by_hand() {
             9.81 * sin,
             -9.81 * cos
         );
-        Analysis::new(&Scene::from_json(&text).expect("sound")).verdict()
+        Analysis::new(Scene::from_json(&text).expect("sound")).verdict()
     };
     let drawn = r#""polygon": [[0, 0], [1.2, 0], [1.2, 1.2], [0, 1.2]], "centre": [0.6, 0.9]"#;
     // The centre moves with the outline: here the crate was drawn on its side.

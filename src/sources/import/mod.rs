@@ -181,7 +181,7 @@ pub struct DrawingProblems {
     /// Sentences that explain how the drawing was read.
     pub notes: Vec<String>,
     /// The scene file, if overlaps of bodies are its only problem. [`Scene::from_json`] refuses it.
-    pub overlapping: Option<SceneFile>,
+    pub overlapping: Option<Box<SceneFile>>,
 }
 
 impl DrawingProblems {
@@ -381,7 +381,7 @@ fn build_scene(
         }
         Err(problems) => {
             let overlaps = trial.overlaps(&outlines, &problems.list);
-            let overlapping = overlaps.is_some().then_some(scene);
+            let overlapping = overlaps.is_some().then(|| Box::new(scene));
             let each = || problems.list.iter().map(|p| outlines.located(p)).collect();
             let problems = overlaps.map_or_else(each, |remark| vec![remark]);
             Err(DrawingProblems { problems, remarks: draft.remarks, notes: Vec::new(), overlapping })
