@@ -8,6 +8,8 @@ use drystone::scene::NoteCode;
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
+use crate::random::Random;
+
 fn read(text: &str, format: Format, options: &Options) -> Imported {
     import(text, format, options).unwrap_or_else(|refusal| panic!("{refusal:?}"))
 }
@@ -277,6 +279,48 @@ fn a_crate_with_its_own_centre_of_mass_tips_or_slides_at_the_angle_by_hand() {
         for (friction, limit) in [(0.7, tips), (0.6, slides)] {
             assert_eq!(verdict(friction, limit - 0.01, place), Verdict::Stable, "{friction} {place}");
             assert_eq!(verdict(friction, limit + 0.01, place), Verdict::Unstable, "{friction} {place}");
+        }
+    }
+}
+
+#[test]
+fn damaged_files_are_reported_and_never_panic() {
+    let mut numbers = Random::new(47);
+    let mut random = move |count: usize| numbers.below(count);
+    let node = |z: f64| json!({ "block": { "data": meshed(0.0, z) }, "is_support": z == 0.0 });
+    let assembly = json!({ "node": { "0": node(0.0), "1": node(1.0) } }).to_string();
+    let spline = "0\nSECTION\n2\nENTITIES\n0\nSPLINE\n8\n0\n70\n1\n71\n2\n40\n0\n40\n0\n40\n0\n40\n1\n40\n2\n40\n2\n40\n2\n41\n1\n41\n0.7\n\
+        41\n1\n41\n1\n10\n0\n20\n0\n10\n4\n20\n0\n10\n4\n20\n4\n10\n0\n20\n4\n0\nSPLINE\n8\n0\n71\n3\n11\n20\n21\n0\n11\n29\n21\n0\n\
+        11\n29\n21\n5\n11\n20\n21\n0\n0\nENDSEC\n0\nEOF\n";
+    let table = "WKT;id;friction\n\"POLYGON ((0 0,1 0,1 1,0 0))\";a;0.5\nPOLYGON ((2 0,3 0,3 1));ground;x\n";
+    let list = "x;y;Masse\n25,0;35,0;2,0\n66,0;42,0;5,0\nA 1;B 2;x;y;N;R\n1;2;60,0;60,0;3,14159265;0,5\n1;0;0,0;0,0;pi/2;0,1\n";
+    let clip = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9"><clipPath id="c"><circle cx="4" cy="4" r="3"/></clipPath>
+        <g clip-path="url(#c)" transform="rotate(9)"><path id="a" d="M1 1H8L5 3Q9 9 1 8Z"/></g><rect width="9" height="9"/></svg>"##;
+    let files = [
+        (assembly.as_str(), Format::Compas),
+        (spline, Format::Dxf),
+        (table, Format::Contacts),
+        (list, Format::Contacts),
+        (clip, Format::Svg),
+        (BY_HAND, Format::Svg),
+    ];
+    let bits = ["1e308", "-", ",", ";", "\"", "NaN", "0", "[", "}", "\n", "1e-300", "url(#a)"];
+    for (whole, format) in files {
+        assert!(import(whole, format, &Options::default()).is_ok() || whole == BY_HAND, "{whole}");
+        for _ in 0..300 {
+            let mut text = whole.to_owned();
+            for _ in 0..=random(3) {
+                let at = random(text.len());
+                let to = (at + random(9)).min(text.len());
+                text.replace_range(at..to, bits[random(bits.len())]);
+            }
+            let value = ["1", "0.5,0.5", "below:1", "a"][random(4)];
+            for options in [Options::default(), options(&[value], &[])] {
+                match import(&text, format, &options) {
+                    Ok(imported) => assert!(Scene::from_json(&imported.scene.to_json()).is_ok(), "{text}"),
+                    Err(refusal) => assert!(!refusal.problems.is_empty()),
+                }
+            }
         }
     }
 }

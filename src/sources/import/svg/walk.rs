@@ -15,7 +15,7 @@ use super::viewport::{self, Viewport};
 use super::xml::{SVG, is, is_never_drawn};
 use crate::geometry::{Point, Vector};
 use crate::sources::import::affine::Affine;
-use crate::sources::import::draft::{Draft, PartGeometry, Role};
+use crate::sources::import::draft::{Draft, Part, PartGeometry, Role};
 use crate::sources::import::naming::Naming;
 use crate::sources::import::scale::Scale;
 use crate::sources::import::subpath::Subpath;
@@ -66,31 +66,30 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         Ok(())
     }
 
-    /// Leaves out the first outline if it is a rectangle of the size of the page, and has no role: the background that
-    /// design programs draw. `corner` is the lower left corner of the page in metres.
+    /// Leaves out rectangles of the size of the page without a role, the backgrounds and frames that design programs
+    /// draw, unless there is nothing else. `corner` is the lower left corner of the page in metres.
     fn leave_page_out(&mut self, corner: Point, page: Viewport, scale: f64) {
-        let [first, _, ..] = self.draft.parts.as_slice() else { return };
-        let PartGeometry::Subpaths(subpaths, _) = &first.form else { return };
-        let hull: Vec<Point> = subpaths.iter().flat_map(Subpath::hull).collect();
         let size = Vector::new(page.width, page.height) * scale;
-        let tolerance = PAGE_TOL * size.norm();
-        let is_page = first.kind == Role::Block
-            && first.clips.is_empty()
-            && size.x > 0.0
-            && size.y > 0.0
-            && (4..=5).contains(&hull.len())
-            && !subpaths.iter().any(Subpath::has_curves)
-            && [0.0, 1.0].into_iter().all(|x| {
-                let near = |y: f64| {
-                    hull.iter().any(|p| (p - corner - Vector::new(x * size.x, y * size.y)).norm() <= tolerance)
-                };
-                near(0.0) && near(1.0)
-            });
-        if is_page {
-            let part = self.draft.parts.remove(0);
-            self.draft
-                .notes
-                .push(format!("{} is left out: it is as large as the page, so it is a background", part.element));
+        if self.draft.parts.len() < 2 || !(size.x > 0.0 && size.y > 0.0) {
+            return;
+        }
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let corners = corners.map(|(x, y)| corner + Vector::new(x * size.x, y * size.y));
+        let is_page = |part: &Part| {
+            let PartGeometry::Subpaths(subpaths, _) = &part.form else { return false };
+            let hull: Vec<Point> = subpaths.iter().flat_map(Subpath::hull).collect();
+            part.kind == Role::Block
+                && part.clips.is_empty()
+                && (4..=5).contains(&hull.len())
+                && !subpaths.iter().any(Subpath::has_curves)
+                && corners.iter().all(|c| hull.iter().any(|p| (p - c).norm() <= PAGE_TOL * size.norm()))
+        };
+        let (pages, parts): (Vec<Part>, Vec<Part>) =
+            std::mem::take(&mut self.draft.parts).into_iter().partition(is_page);
+        self.draft.parts = parts;
+        for page in pages {
+            let why = "it is as large as the page, so it is a background";
+            self.draft.notes.push(format!("{} is left out: {why}", page.element));
         }
     }
 
