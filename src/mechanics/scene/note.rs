@@ -371,13 +371,7 @@ fn outside(polygon: &Polygon, at: Pair, gap: f64) -> Option<f64> {
     if polygon.contains(point) {
         return None;
     }
-    let distance = (polygon.edges())
-        .map(|edge| {
-            let along = edge.vector();
-            let share = (point - edge.from).dot(&along) / along.norm_squared();
-            (point - (edge.from + along * share.clamp(0.0, 1.0))).norm()
-        })
-        .fold(f64::INFINITY, f64::min);
+    let distance = polygon.edges().map(|edge| edge.distance(point)).fold(f64::INFINITY, f64::min);
     // Because of rounding, a point on the boundary can seem to lie slightly outside. Do not report such points.
     let noise = 1e-9 * polygon.bounds().diagonal();
     (distance > gap.max(noise)).then_some(distance)

@@ -307,13 +307,7 @@ fn section(solid: &AssemblyBlock, [right, up, across]: [usize; 3]) -> Option<Sec
     if sides.len().saturating_mul(edges.len()) > MAX_COMPARISONS {
         return None;
     }
-    let is_on_edge = |p: &Point| {
-        edges.iter().any(|edge| {
-            let along = edge.vector();
-            let share = ((p - edge.from).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            (p - (edge.from + along * share)).norm() <= 2.0 * tolerance
-        })
-    };
+    let is_on_edge = |p: &Point| edges.iter().any(|edge| edge.distance(*p) <= 2.0 * tolerance);
     let is_prism = sides.iter().all(is_on_edge);
     is_prism.then_some(Section { polygon, thickness: high - low })
 }

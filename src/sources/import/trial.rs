@@ -137,15 +137,8 @@ fn alone(scene: &Scene) -> Vec<usize> {
 fn nearest(polygons: &[Polygon], own: usize) -> f64 {
     let corners = |polygon: &Polygon| polygon.rings().iter().flatten().copied().collect::<Vec<Point>>();
     let apart = |corners: &[Point], polygon: &Polygon| {
-        let mut least = f64::INFINITY;
-        for edge in polygon.edges() {
-            let along = edge.vector();
-            for corner in corners {
-                let share = ((corner - edge.from).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-                least = least.min((corner - (edge.from + along * share)).norm());
-            }
-        }
-        least
+        let distances = polygon.edges().flat_map(|edge| corners.iter().map(move |corner| edge.distance(*corner)));
+        distances.fold(f64::INFINITY, f64::min)
     };
     let (mine, around) = (corners(&polygons[own]), polygons[own].bounds());
     let mut least = f64::INFINITY;

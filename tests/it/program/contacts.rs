@@ -137,13 +137,13 @@ fn invalid_contact_lists_are_refused_with_messages() {
     file["contacts"][0]["bodies"] = json!(["1", "1"]);
     file["contacts"][1]["bodies"] = json!(["1", "grond"]);
     file["blocks"][0] = json!({ "id": "1", "centre": [0, 0] });
-    file["blocks"][1]["polygon"] = json!([[0, 0], [1, 0], [1, 1]]);
+    file["blocks"][1]["angle"] = json!(30);
     let problems = Scene::from_json(&file.to_string()).expect_err("refused").to_string();
     for words in [
         "both bodies of the contact are the same body",
         "grond",
         "no `mass` and no `weight`",
-        "the keys `centre` and `polygon` are both given",
+        "the keys `centre` and `angle` are both given",
     ] {
         assert!(problems.contains(words), "{words}: {problems}");
     }
