@@ -5,13 +5,12 @@
 use std::rc::Rc;
 
 use super::about::About;
-use super::arrow::{ArrowKind, ForceArrow, round_above};
+use super::arrow::{self, ArrowKind, ForceArrow, round_above};
 use super::canvas::Canvas;
 use super::description;
 use super::design::{Key, Layer, Mark};
 use super::fill::Fills;
 use super::joint_forces;
-use super::mark;
 use super::option::ArrowScale;
 use super::parallel_arrows::separate_parallel_arrows;
 use super::placing::Label;
@@ -20,7 +19,7 @@ use super::stage;
 use super::unit::unit;
 use super::words::{quantity, round_below_in};
 use crate::mechanics::scene::BodyId;
-use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, Path, Stroke, arrow, text};
+use crate::pictures::drawing::{self, Colour, Face, Outline, PagePoint, Path, Stroke, text};
 
 /// Least length of the arrow of the largest force, mm.
 const LONGEST: f64 = 6.0;
@@ -84,7 +83,7 @@ impl Figure for BlockArrows {
 
 /// Returns the force that sets the scale of the arrows of this panel, N: the largest in this frame or in all frames.
 fn largest(canvas: &Canvas<'_>) -> f64 {
-    let of = |frame| mark::largest(canvas.analysis, frame, canvas.options);
+    let of = |frame| arrow::largest(canvas.analysis, frame, canvas.options);
     match canvas.options.scale {
         ArrowScale::Panel => of(canvas.number),
         ArrowScale::Strip => (0..canvas.analysis.frames.len()).map(of).fold(0.0, f64::max),
@@ -102,7 +101,7 @@ fn outline(canvas: &Canvas<'_>, from: PagePoint, reach: (f64, f64), width: f64) 
     let length = libm::hypot(reach.0, reach.1);
     let tick = if canvas.options.printed() { 0.0 } else { canvas.mm(TICK) };
     let longer = (tick / length.max(f64::MIN_POSITIVE)).max(1.0);
-    arrow::straight(from, (longer * reach.0, longer * reach.1), width.max(canvas.mm(SHAFT)))
+    drawing::arrow::straight(from, (longer * reach.0, longer * reach.1), width.max(canvas.mm(SHAFT)))
 }
 
 /// Draws the arrows of weights and of forces of contacts, and in printed figures also those of robots and of missing
@@ -115,7 +114,7 @@ fn arrows(canvas: &mut Canvas<'_>, largest: f64) {
     let most = MOST_UNITS[usize::from(placed.len() > FEW_BLOCKS)];
     let stretch = if printed { 1.0 } else { (canvas.mm(LONGEST) / pixels).clamp(1.0, most) };
     canvas.scale = stretch * pixels / largest;
-    let mut marks = mark::marks(canvas.analysis, canvas.number, options, largest / stretch);
+    let mut marks = arrow::marks(canvas.analysis, canvas.number, options, largest / stretch);
     marks.arrows.retain(|arrow| match arrow.kind {
         ArrowKind::Weight | ArrowKind::Contact(_) | ArrowKind::Normal(_) | ArrowKind::Friction(_) => true,
         ArrowKind::Load | ArrowKind::RobotTorque(_) | ArrowKind::MissingTorque(_) => false,

@@ -14,13 +14,11 @@ mod arrow;
 mod force;
 mod surroundings;
 mod table;
-mod value;
 
 use arrow::{Arrow, Arrows, NOISE, least_length, longest};
 use force::{Force, forces, largest};
-use surroundings::{clipped, corners, distinct, neighbours, view};
+use surroundings::{Piece, clipped, corners, distinct, neighbours, view};
 use table::Table;
-use value::Piece;
 
 use super::about::About;
 use super::arrow::round_above;
@@ -116,7 +114,7 @@ impl Figure for FreeBody {
         let titles: Vec<&str> = arrows.iter().map(|arrow| arrow.title.as_str()).collect();
         let mut stated = body.table(canvas).stated();
         if body.guided {
-            let places = value::places(canvas.analysis, body.block, &body.contacts);
+            let places = surroundings::places(canvas.analysis, body.block, &body.contacts);
             stated.extend(places.iter().map(|place| place.iter().map(Piece::stated).collect()));
         }
         format!("{}. {}.", titles.join(". "), stated.join("; "))
@@ -386,10 +384,10 @@ impl<'a> Body<'a> {
         group.items.push(list.into());
         y += height + canvas.mm(1.2);
         if self.guided {
-            let values = value::places(canvas.analysis, self.block, &self.contacts);
-            for row in value::rows(&values, LIST_SIZE, room) {
+            let values = surroundings::places(canvas.analysis, self.block, &self.contacts);
+            for row in surroundings::rows(&values, LIST_SIZE, room) {
                 y += 1.55 * LIST_SIZE;
-                let mut at = PagePoint::new(-value::width(&row, LIST_SIZE) / 2.0, y);
+                let mut at = PagePoint::new(-surroundings::width(&row, LIST_SIZE) / 2.0, y);
                 for piece in row {
                     let (items, width): (Vec<Item>, f64) = piece.draw(at, LIST_SIZE, theme);
                     group.items.extend(items);

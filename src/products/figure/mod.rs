@@ -12,9 +12,7 @@ mod broken;
 mod cad;
 mod canvas;
 mod capacity;
-mod caption;
 mod change;
-mod choice;
 mod collapse;
 mod compare;
 mod description;
@@ -32,7 +30,6 @@ mod joint_forces;
 mod kernel;
 mod kind;
 mod margin;
-mod mark;
 mod mechanism;
 mod option;
 mod parallel_arrows;
@@ -50,23 +47,21 @@ mod utilisation;
 mod verdict;
 mod words;
 
-pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind};
+pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind, arrows, marks};
 pub use broken::broken;
 pub use cad::dxf;
-pub use caption::caption;
 #[cfg(feature = "report")]
 pub(crate) use change::{ForceChange, count_in_words, noise, shared_forces};
-#[cfg(any(feature = "cli", feature = "wasm"))]
-pub(crate) use choice::{free_block, named_block};
 pub use draw::{draw, film, forces, least_size, panels, panels_of, split};
 #[cfg(feature = "report")]
 pub(crate) use fall::{Fall, Joint};
 pub use gallery::{Plate, gallery};
 pub use kind::Kind;
-pub use mark::{arrows, marks};
 pub use option::{ArrowScale, Corners, Fill, ForceStyle, Normalisation, Options};
+#[cfg(any(feature = "cli", feature = "wasm"))]
+pub(crate) use option::{free_block, named_block};
 pub use ring::ring;
 pub use shapes::shapes;
 #[cfg(feature = "report")]
 pub(crate) use words::letter;
-pub use words::quantity;
+pub use words::{caption, quantity};
