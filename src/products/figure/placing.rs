@@ -352,7 +352,7 @@ fn cost(
     cost += if look.is_strip { 0.4 } else { 0.04 } * per_mm(beyond);
     let inward = dx * (anchor.x - structure.at.x - structure.width / 2.0);
     // A rounding error must not decide on which side of its anchor a label lies.
-    cost += if inward < -look.mm(0.02).powi(2) { 0.25 } else { 0.0 };
+    cost += if inward < -(look.mm(0.02) * look.mm(0.02)) { 0.25 } else { 0.0 };
     cost += if middle.y > structure.at.y + structure.height { 0.8 } else { 0.0 };
     Some((cost, leader))
 }
