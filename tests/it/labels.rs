@@ -206,10 +206,11 @@ fn blocks_that_the_words_below_a_frame_name_have_labels() {
                 None => options,
             },
         );
-        for width in [None, Some(COLUMN), Some(TWO_COLUMNS)] {
+        use figure::Kind::{Capacity, Compare, Forces, Mechanism, Thrust};
+        for width in [None, Some(COLUMN)] {
             let mut options = Options::default();
             options.width = width;
-            for kind in figure::Kind::ALL.into_iter().filter(|kind| *kind != figure::Kind::Freebody) {
+            for kind in [Forces, Mechanism, Thrust, Capacity, Compare] {
                 let drawing = figure::draw(&analysis, kind, &options);
                 let what = format!("{name} {} {width:?}", kind.name());
                 let frames = classes(&drawing.items, &["frame"]);
@@ -223,7 +224,10 @@ fn blocks_that_the_words_below_a_frame_name_have_labels() {
                     let labels = classes(&group.items, &["name"]);
                     let labels: Vec<String> = labels.into_iter().flat_map(texts).map(|text| text.words).collect();
                     let blocks = frame.placed.iter().map(|id| &scene.blocks()[id.0].id);
-                    for id in blocks.filter(|id| names(&below, id) && !names(&frame.title, id)) {
+                    // Some blocks have the name of a direction.
+                    let is_block = |id: &&String| !["left", "right"].contains(&id.as_str());
+                    let named_below = |id: &&String| names(&below, id) && !names(&frame.title, id);
+                    for id in blocks.filter(is_block).filter(named_below) {
                         named += 1;
                         assert!(labels.contains(id), "{what}: {id} of {below:?} has no label");
                     }

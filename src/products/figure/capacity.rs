@@ -120,9 +120,8 @@ fn polygon(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
     let words = wording::capacity::ranges(canvas.scene(), plan.capacity);
     let ring: Vec<PagePoint> = plan.ring.iter().map(|p| canvas.place(*p)).collect();
     let mut shapes = Vec::new();
-    if ring.len() > 2 {
-        shapes.push(Path::filled(Outline::ring(ring.clone()), theme.safe).with_opacity(AREA_OPACITY));
-    }
+    let area = Path::filled(Outline::ring(ring.clone()), theme.safe).with_opacity(AREA_OPACITY);
+    let has_area = ring.len() > 2;
     let ends: Vec<PagePoint> = plan.capacity.at.iter().map(|p| canvas.place(*p)).collect();
     let loaded = Path::stroked(Outline::line(ends.clone()), Stroke::new(ink, canvas.mm(0.6)));
     if !plan.is_apart && ends.len() > 1 {
@@ -151,8 +150,15 @@ fn polygon(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
         shapes.push(Path::filled(Outline::circle(at, canvas.mm(DOT_RADIUS)), ink));
     }
     let key = area_key(canvas, plan);
-    let mark = Mark::new(Layer::Force, "capacity", shapes).titled(format!("Carried forces: {words}")).keyed(&key);
-    canvas.put(mark.avoided(canvas.mm(0.1)));
+    let titled = |mark: Mark| mark.titled(format!("Carried forces: {words}")).keyed(&key);
+    // Labels may lie on the area, but not on its edges.
+    let edges = if has_area {
+        canvas.put(titled(Mark::new(Layer::Force, "capacity", vec![area])));
+        Mark::new(Layer::Force, "edges", shapes)
+    } else {
+        titled(Mark::new(Layer::Force, "capacity", shapes))
+    };
+    canvas.put(edges.avoided(canvas.mm(0.1)));
     canvas.explain(scale_key(canvas, plan));
     let point = canvas.place(plan.point);
     if plan.is_apart {

@@ -224,7 +224,7 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
     };
     let size = ArrowSize { length: canvas.mm(5.0), ..load_size(canvas) };
     let mut symbol = vec![hollow(canvas, size.outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink)];
-    if loads.iter().any(|load| acts_inside(canvas, load)) {
+    if loads.iter().any(|load| load.force.norm() > 0.0 && acts_inside(canvas, load)) {
         symbol.push(Path::filled(Outline::circle(PagePoint::new(canvas.mm(5.0), 0.0), canvas.mm(0.5)), ink));
     }
     let key = Rc::new(Key { rank: LOAD_RANK, words, symbol, width: canvas.mm(5.5) });

@@ -36,7 +36,7 @@ fn no_label_lies_on_another_or_on_a_title_and_no_words_are_cut_or_tiny_in_any_ki
                     }
                     // 6.6 points, and 6 points in the theme of the thesis. Symbols of free bodies have small indices.
                     let least = match labels.contains(text) {
-                        true if kind == figure::Kind::Freebody => 9.0,
+                        _ if kind == figure::Kind::Freebody => 9.0,
                         true => 10.1,
                         false => 10.99,
                     };
