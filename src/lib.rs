@@ -305,6 +305,9 @@ pub mod doc {
     #[doc = include_str!("doc/certificate.md")]
     pub mod certificate {}
 
+    #[doc = include_str!("doc/placement.md")]
+    pub mod placement {}
+
     #[doc = include_str!("doc/claims.md")]
     pub mod claims {}
 

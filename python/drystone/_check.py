@@ -21,6 +21,8 @@ def check(
     *,
     margins: Margins = False,
     wedging: bool = False,
+    placement: bool = False,
+    placed: Iterable[str] | None = None,
     verdict_only: bool = False,
     accuracy: str = "standard",
     time_limit: float | None = None,
@@ -33,7 +35,8 @@ def check(
     """Analyses a scene and returns, for each frame, the verdict with its proof, the forces, and the failures.
 
     ``margins`` is ``True`` for all margins, or one or several of "friction", "tilt", "horizontal_load", "kernel",
-    "load_factor" and "robots". ``wedging=True`` tests whether a frame stands only by wedging. ``verdict_only=True``
+    "load_factor" and "robots". ``wedging=True`` tests whether a frame stands only by wedging. ``placement=True``
+    computes how accurately the blocks must be placed; ``placed`` names the only blocks that are off their places. ``verdict_only=True``
     leaves out all results that the verdict does not need. ``accuracy`` is "standard" or "proved". ``time_limit`` is in
     seconds, and ``contact_tolerance`` is in metres. ``notes=False`` leaves out the notes on values of the scene that
     are allowed but probably not intended.
@@ -56,6 +59,8 @@ def check(
     options = analysis_options(
         margins,
         wedging=wedging,
+        placement=placement,
+        placed=None if placed is None else list(placed),
         verdict_only=verdict_only,
         accuracy=accuracy,
         time_limit=time_limit,
@@ -74,6 +79,8 @@ def check_many(
     *,
     margins: Margins = False,
     wedging: bool = False,
+    placement: bool = False,
+    placed: Iterable[str] | None = None,
     verdict_only: bool = False,
     accuracy: str = "standard",
     time_limit: float | None = None,
@@ -99,6 +106,8 @@ def check_many(
     options = analysis_options(
         margins,
         wedging=wedging,
+        placement=placement,
+        placed=None if placed is None else list(placed),
         verdict_only=verdict_only,
         accuracy=accuracy,
         time_limit=time_limit,

@@ -9,7 +9,7 @@ use crate::clock::Instant;
 use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Toward, typed_capacity};
 #[cfg(feature = "certificate")]
 use crate::mechanics::certificate::Certificate;
-use crate::mechanics::scene::{Scene, SceneError};
+use crate::mechanics::scene::{BlockId, Scene, SceneError};
 use crate::pictures::drawing::{Colour, Drawing, Theme};
 use crate::products::figure::{self, Kind};
 use crate::read::{Dialect, Given, requested};
@@ -26,6 +26,9 @@ request! {
         /// Test whether each standing frame stands only by wedging: by a self-stress that its loads do not build up
         /// from rest
         wedging: bool = given.flag("wedging"), arg(long);
+        /// Compute how accurately the blocks must be placed: the error up to which every standing frame is proved to
+        /// stand, and an error with which it falls
+        placement: bool = given.flag("placement"), arg(long);
         /// Edges within this many metres touch, and bodies may overlap by up to this depth. It replaces the scene's
         /// `contact_tolerance`, or the value that is estimated from its coordinates
         contact_tolerance: Option<f64> = given.value("contact_tolerance", length),
@@ -73,6 +76,9 @@ request! {
         sensitivity: Option<SensitivityMargin> = given.word("sensitivity"),
             arg(long, value_parser = crate::text::typed_word::<SensitivityMargin>(), value_name = "MARGIN");
         capacity: CapacityArgs = CapacityArgs::read(given), command(flatten);
+        /// With --placement: only these blocks are off their places, all others are exact
+        placed: Option<Vec<String>> = given.list("placed", |r, node, at| r.text(node, at)),
+            arg(long, value_name = "BLOCKS", value_delimiter = ',', requires = "placement");
         /// Compute only the verdict with its proof; leave out the failures and the choice of the unique forces
         verdict_only: bool = given.flag("verdict_only"), arg(long);
         /// Leave out notes about allowed input that is rarely intended; a scene silences single notes with "silence":
@@ -158,6 +164,7 @@ impl AnalysisArgs {
         analysis::Options {
             accuracy: self.accuracy,
             wedging: self.wedging,
+            placement: self.placement,
             deadline: self.time_limit.and_then(|limit| Instant::now().checked_add(limit)),
             ..analysis::Options::default()
         }
@@ -166,12 +173,13 @@ impl AnalysisArgs {
     /// Returns the name and the value of each option. A resume file records these values, because the results of a
     /// batch depend on them.
     #[cfg(feature = "cli")]
-    pub(crate) fn described(self) -> [(&'static str, String); 4] {
+    pub(crate) fn described(self) -> [(&'static str, String); 5] {
         let tolerance = self.contact_tolerance.map(|metres| format!("{metres} m"));
         let limit = self.time_limit.map(|limit| format!("{limit:?}"));
         [
             ("--accuracy", self.accuracy.word().to_owned()),
             ("--wedging", if self.wedging { "yes" } else { "no" }.into()),
+            ("--placement", if self.placement { "yes" } else { "no" }.into()),
             ("--contact-tolerance", tolerance.unwrap_or_else(|| "not given".into())),
             ("--time-limit", limit.unwrap_or_else(|| "not given".into())),
         ]
@@ -221,9 +229,25 @@ impl CheckArgs {
         options
     }
 
+    /// Changes a scene such that only the blocks of the option `placed` are off their places.
+    pub(crate) fn only_placed(&self, scene: &mut Scene) -> Result<(), String> {
+        let Some(names) = &self.placed else { return Ok(()) };
+        if !self.level.placement {
+            return Err("--placed needs --placement".into());
+        }
+        let off = names.iter().map(|name| figure::named_block(scene, name)).collect::<Result<Vec<_>, _>>()?;
+        for (number, block) in scene.blocks.iter_mut().enumerate() {
+            if !off.contains(&BlockId(number)) {
+                block.placement = 0.0;
+            }
+        }
+        Ok(())
+    }
+
     /// Reads the text of a scene, with the frame that is chosen, and analyses it.
     pub(crate) fn analysis(&self, text: &str) -> Result<Analysis, Refused> {
-        let scene = self.level.scene(text, self.frame)?;
+        let mut scene = self.level.scene(text, self.frame)?;
+        self.only_placed(&mut scene)?;
         let options = self.capacity.add_to(self.base(), &scene)?;
         Ok(self.analysed(scene, &options))
     }

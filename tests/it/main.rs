@@ -46,6 +46,7 @@ mod peers;
 mod margins;
 mod mechanism;
 mod pictures;
+mod placement;
 mod polygons;
 mod print;
 mod problems;

@@ -362,6 +362,7 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
         if number < 6 {
             let first = scene.block_named(&scene.blocks()[0].id);
             options.capacity = first.map(CapacityRequest::of_block);
+            options.placement = true;
         }
         let mut analysis = Analysis::with(&scene, &options);
         if number < 6 {

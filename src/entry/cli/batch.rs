@@ -197,6 +197,9 @@ impl Batch {
         if self.level.wedging {
             fields = fields.with_wedging();
         }
+        if self.level.placement {
+            fields = fields.with_placement();
+        }
         Ok(SceneWork { level: self.level, margins: self.margins.clone(), fields, form, drawn: drawn.map(Arc::new) })
     }
 
@@ -310,6 +313,9 @@ impl SceneWork {
         }
         if self.fields.ask(&["frames", "only_by_wedging"]) {
             options.wedging = true;
+        }
+        if self.fields.ask(&["frames", "placement"]) {
+            options.placement = true;
         }
         options
     }

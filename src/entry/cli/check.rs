@@ -15,7 +15,7 @@ use crate::entry::cli::terminal::Terminal;
 use crate::entry::cli::verify;
 use crate::entry::request::CheckArgs;
 use crate::mechanics::analysis::{Analysis, Options, Verdict};
-use crate::mechanics::scene::Note;
+use crate::mechanics::scene::{Note, Scene};
 use crate::products::result::{Layout, Timing, refusal, to_json_of, to_json_with_blocks};
 use crate::products::wording::number::letter;
 use crate::products::wording::sensitivity;
@@ -70,8 +70,8 @@ impl Check {
         let mut refused = Vec::new();
         for (number, (path, outcome)) in outcomes.into_iter().enumerate() {
             match outcome {
-                // A scene without the block of `--capacity` is refused before any scene is analysed.
-                Ok(source) => match self.what.capacity.add_to(Options::default(), &source.scene) {
+                // A scene without a block that an option names is refused before any scene is analysed.
+                Ok(mut source) => match self.choose_blocks(&mut source.scene) {
                     Ok(_) => sources.push((number, source)),
                     Err(why) => refused.push((number, path, why.into())),
                 },
@@ -132,6 +132,12 @@ impl Check {
                 answer
             })
             .collect()
+    }
+
+    /// Applies the option `placed` to a scene, and refuses a scene that lacks a block of this option or of `capacity`.
+    fn choose_blocks(&self, scene: &mut Scene) -> Result<(), String> {
+        self.what.only_placed(scene)?;
+        self.what.capacity.add_to(Options::default(), scene).map(drop)
     }
 
     /// Analyses one scene. Returns its exit status, the verdicts of its frames, and its JSON or its table; the other of

@@ -1,7 +1,8 @@
 //! Analyses all frames of a scene, one after the other.
 //!
 //! For each frame: assemble it, split it into components, decide the components that did not occur in an earlier frame,
-//! and combine the results. If they are requested, wedging, margins and sensitivity follow.
+//! and combine the results. If they are requested, wedging, margins, sensitivity and
+//! the placement tolerance follow.
 
 use std::collections::BTreeMap;
 
@@ -14,6 +15,7 @@ use super::frame::{Key, key};
 use super::frame::{SolveReport, Stages};
 use super::gather::{add_component, unloaded_frame};
 use super::margin::{self, ComponentIntervals, Part};
+use super::placement;
 use super::sensitivity::{self, Sensitivity};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
 use crate::clock::Instant;
@@ -110,6 +112,15 @@ pub(super) fn analyse_frame(context: &FrameContext, options: Options, known: &mu
     analysis.sensitivity = find_sensitivity(context, &analysis, &solved, options, &known.intervals);
     analysis.effects.push(effect::margin::report(decided_count));
     analysis.effects.push(wedging::report(wedging));
+    if options.placement {
+        let before = seconds();
+        if analysis.verdict == Verdict::Stable {
+            let components = solved.iter().map(|s| s.component);
+            analysis.placement = placement::find_placement(context.scene, components);
+        }
+        analysis.solve.stages.placement = seconds() - before;
+        analysis.effects.push(effect::placement::report(analysis.verdict == Verdict::Stable));
+    }
     analysis.solve.seconds = seconds();
     analysis
 }

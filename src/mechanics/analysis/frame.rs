@@ -118,6 +118,8 @@ pub struct Stages {
     pub wedging: f64,
     /// Computing the margins.
     pub margins: f64,
+    /// Computing the placement tolerance.
+    pub placement: f64,
 }
 
 /// Components of one scene with the same key have the same results. The key contains the blocks, each hold (robot,

@@ -162,9 +162,9 @@ fn compare_verdicts(scene: &Scene, frame: &mut FrameAnalysis, places: &[Ambiguou
     }
 }
 
-/// Returns the options for the second analysis, which computes no margins and does not check wedging.
+/// Returns the options for the second analysis, which computes no margins and no placement tolerance and does not check wedging.
 fn without_extras(options: &Options) -> Options {
-    Options { margins: false, wedging: false, ..*options }
+    Options { margins: false, wedging: false, placement: false, ..*options }
 }
 
 fn is_undecided(verdict: Verdict) -> bool {

@@ -33,6 +33,7 @@ pub(super) fn unloaded_frame(context: &FrameContext, assembly: &Assembly, effect
         mechanism: Vec::new(),
         margins: None,
         sensitivity: None,
+        placement: None,
         capacity: None,
         only_by_wedging: None,
         exact: None,

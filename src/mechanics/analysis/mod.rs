@@ -19,6 +19,7 @@ mod edge;
 mod gaps_closed;
 mod option;
 mod pair;
+mod placement;
 mod wedged;
 mod thrust_states;
 mod sensitivity;
@@ -55,6 +56,7 @@ pub use margin::{
 pub use mechanism::Toward;
 pub use option::{Accuracy, Options};
 pub use pair::pair;
+pub use placement::{BlockPlacement, Placement, PlacementError, PlacementLimit};
 pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity, Slope};
 pub use thrust_states::{ThrustState, ThrustStates};
 pub use undecided::UndecidedReason;
@@ -167,6 +169,8 @@ pub struct FrameAnalysis {
     pub margins: Option<Margins>,
     /// How a margin changes with corners, weights, friction and loads, if requested.
     pub sensitivity: Option<Sensitivity>,
+    /// How accurately the blocks must be placed, if requested and if the frame stands.
+    pub placement: Option<Placement>,
     /// The forces that a block can carry, if requested and if the block is placed.
     pub capacity: Option<LoadCapacity>,
     /// Whether the frame stands only by a self-stress that its loads do not build up from rest. `None` if not

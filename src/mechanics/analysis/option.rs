@@ -28,6 +28,8 @@ pub struct Options {
     pub capacity: Option<CapacityRequest>,
     /// Whether to check if a stable frame stands only by wedging.
     pub wedging: bool,
+    /// Whether to compute how accurately the blocks of a stable frame must be placed.
+    pub placement: bool,
     /// Whether to compute only the verdict and its proof. If a frame falls, its failures are not computed. If it
     /// stands, the forces balance, but their sum may not be the least. The result states this.
     pub verdict_only: bool,
@@ -65,6 +67,7 @@ impl Options {
         margins: bool, "Whether to compute how far each frame is from its limit of stability.";
         margin_kinds: MarginKinds, "The margins to compute, if margins are requested.";
         wedging: bool, "Whether to check if a stable frame stands only by wedging.";
+        placement: bool, "Whether to compute how accurately the blocks of a stable frame must be placed.";
         verdict_only: bool, "Whether to compute only the verdict and its proof.";
     }
 
@@ -84,6 +87,7 @@ impl Options {
         sensitivity: None,
         capacity: None,
         wedging: false,
+        placement: false,
         verdict_only: false,
         deadline: None,
     };

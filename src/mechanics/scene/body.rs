@@ -70,6 +70,8 @@ pub struct Block {
     pub(crate) has_own_centre: bool,
     /// Weight in newtons, along gravity, at least 0.
     pub weight: f64,
+    /// By how much the errors of this block are multiplied when the placement tolerance is computed, at least 0.
+    pub placement: f64,
     /// Whether the weight is computed from area, thickness and density, because the file gives neither weight nor mass.
     pub(crate) weighs_by_area: bool,
 }

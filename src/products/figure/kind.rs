@@ -11,12 +11,15 @@ use super::kernel::Kernel;
 use super::margin::CollapseMargin;
 use super::mechanism::Mechanism;
 use super::option::{ArrowScale, Options};
+use super::placement::PlacementTolerance;
 use super::polygon::ForcePolygon;
 use super::sensitivity::CornerEffects;
 use super::sheet::Figure;
 use super::structure::Structure;
 use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
+#[cfg(any(feature = "python", feature = "wasm"))]
+use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::{self, Analysis, MarginKinds};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 use crate::mechanics::analysis::{CapacityRequest, MarginKind, Sensitivity};
@@ -67,11 +70,13 @@ pub enum Kind {
     /// One block as a free body: all forces on it with their names, and a table of them. The option `block` names the
     /// block; the last frame that places it is shown.
     Freebody,
+    /// How far each block alone may be off its place, and the pattern of errors with which the structure falls.
+    Placement,
 }
 
 impl Kind {
     /// All kinds, in the order in which the help text lists them.
-    pub const ALL: [Kind; 14] = [
+    pub const ALL: [Kind; 15] = [
         Kind::Forces,
         Kind::Flow,
         Kind::Mechanism,
@@ -86,6 +91,7 @@ impl Kind {
         Kind::Compare,
         Kind::Structure,
         Kind::Freebody,
+        Kind::Placement,
     ];
 
     /// Returns what draws a figure of this kind.
@@ -105,6 +111,7 @@ impl Kind {
             Kind::Compare => &Comparison,
             Kind::Structure => &Structure,
             Kind::Freebody => &FreeBody,
+            Kind::Placement => &PlacementTolerance,
         }
     }
 
@@ -170,6 +177,7 @@ impl Kind {
             analysis_options = analysis_options.margins(true).margin_kinds(kinds);
         }
         analysis_options.margins |= self.needs_margins();
+        analysis_options.placement |= self.about().needs_placement;
         if self.needs_sensitivity() && analysis_options.sensitivity.is_none() {
             analysis_options.sensitivity = Some(Sensitivity::default_kind(scene));
         }
@@ -197,7 +205,9 @@ impl Kind {
             let kind = frames.iter().find_map(|f| Some(f.sensitivity.as_ref()?.kind));
             kind.is_some() && (analysis_options.sensitivity.is_none() || analysis_options.sensitivity == kind)
         };
+        let placement = || frames.iter().all(|f| f.placement.is_some() || f.verdict != Verdict::Stable);
         self.needs_margins() && !margins()
+            || self.about().needs_placement && !placement()
             || self.needs_capacity() && !capacity()
             || self.needs_sensitivity() && !sensitivity()
     }

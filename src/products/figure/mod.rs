@@ -33,6 +33,7 @@ mod margin;
 mod mechanism;
 mod option;
 mod parallel_arrows;
+mod placement;
 mod placing;
 mod polygon;
 mod ring;

@@ -427,6 +427,22 @@ pub static KEYS: &[Key] = &[
             key("gap", Number, "bound on the error of the set: every force that no motion excludes is at most this far from the proved forces; at most a millionth of the size of the set or a few billionths of the heaviest load").unit("N"),
             key("cases", Count, "number of extreme cases whose sets were intersected; 1 without `--for-all`"),
         ]),
+        key("placement", Object, "how accurately the blocks must be placed: all joints, centres of gravity and loads may be off at the same time").when("with `--placement`, if the frame stands and errors of some block count").of(&[
+            key("proved", Number, "the frame stands for all errors up to this").unit("m"),
+            key("falls_at", Number, "with errors of this size it falls, in the directions of `pattern`").unit("m").when("if such a pattern was found"),
+            key("limited_by", Word(&["balance", "joint_length", "point_contact", "too_many_blocks", "search", "time_limit"]), "why `proved` is not larger: no larger tolerance has such a proof; a joint has no length left; a contact acts at one point; a part has too many blocks; the search ended before the optimum; the time limit ended the search"),
+            key("joint", Count, "index in `interfaces`, from 0, of the joint that decides").when("if a joint decides"),
+            key("block", Text, "block whose error does most of the work in `mechanism`").when("if a pattern was found"),
+            key("pattern", Objects, "errors of the centres of gravity with which the frame falls; the ends of all joints are off by `falls_at` too").of(&[
+                key("block", Text, "block that is off its place"),
+                key("offset", Pair, "error of its centre of gravity, across gravity; its loads are off to the side that turns it the same way").unit("m"),
+            ]),
+            key("mechanism", Motions, "motion with which it then falls"),
+            key("blocks", Objects, "for each block, how far it alone may be off while all others are in place").of(&[
+                key("block", Text, "block that is off its place"),
+                key("proved", Number, "the frame stands if only this block is off by up to this").unit("m"),
+            ]),
+        ]),
         key("only_by_wedging", FlagOrOpen, "whether the frame stands only because blocks press on each other although no load presses them together; null if this could not be decided, and `effects` then gives the reason").when("with `--wedging`, if the frame stands"),
         key("wedging", Object, "proof that the frame stands only by wedging").when("with `--wedging`, if `only_by_wedging` is `true`").of(&[
             key("must_press", Objects, "interfaces that open or slide if the springs give way; in every balance, their normal forces sum to at least `normal_force_at_least`, if a bound was found").of(&[
@@ -461,7 +477,7 @@ pub static KEYS: &[Key] = &[
             ]),
         ]),
         key("effects", Objects, "effects that were considered for this frame").of(&[
-            key("effect", Text, "`weight`, `contact`, `friction`, `kernel`, `robots`, `robot torque`, `loads`, `corner contacts`, `sticking`, `mechanism`, `margins` or `wedging`"),
+            key("effect", Text, "`weight`, `contact`, `friction`, `kernel`, `robots`, `robot torque`, `loads`, `corner contacts`, `sticking`, `mechanism`, `margins` or `wedging`; with `--placement` also `placement`"),
             key("simulated", Flag, "whether it was simulated"),
             key("why", Text, "reason"),
             key("unknowns", Count, "number of unknowns that the effect adds, or would have added"),
@@ -487,6 +503,7 @@ pub static KEYS: &[Key] = &[
                 key("assembly", Number, "assembling the frame").unit("s"),
                 key("solution", Number, "solving and proving").unit("s"),
                 key("wedging", Number, "test for wedging; 0 if it was not requested").unit("s"),
+                key("placement", Number, "placement tolerance").unit("s").when("with `--placement`"),
                 key("margins", Number, "margins; 0 if they were not requested").unit("s"),
             ]),
         ]),

@@ -114,6 +114,12 @@ impl Fields {
         self.with(&["frames", "only_by_wedging"])
     }
 
+    /// Selects, in addition, the placement tolerance of every frame.
+    #[must_use]
+    pub fn with_placement(self) -> Fields {
+        self.with(&["frames", "placement"])
+    }
+
     fn with(mut self, path: &[&'static str]) -> Fields {
         if !self.ask(path) {
             self.chosen.push(path.to_vec());

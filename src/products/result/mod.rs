@@ -20,6 +20,7 @@ pub mod key;
 mod line;
 mod margin;
 mod refusal;
+mod placement;
 mod sensitivity;
 mod wedging;
 
@@ -38,6 +39,7 @@ pub use key::schema;
 pub use line::{Fields, Origin, PictureOutcome, UnknownField, line_of, verdict_line};
 use margin::Margins;
 pub use margin::margins_json;
+use placement::Placement;
 pub use refusal::{problem_line, refusal};
 #[cfg(feature = "wasm")]
 pub(crate) use refusal::{problem_list, remark_list};
@@ -188,6 +190,8 @@ struct Frame<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     sensitivity: Option<Sensitivity<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    placement: Option<Placement<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     capacity: Option<Capacity<'a>>,
     /// `Some(None)`, written as `null`, if it was requested but could not be decided.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -299,6 +303,7 @@ impl<'a> Frame<'a> {
             mechanism: frame.mechanism.iter().map(|m| Motion::new(scene, m)).collect(),
             margins: frame.margins.as_ref().map(|m| Margins::new(scene, m)),
             sensitivity: (frame.sensitivity.as_ref()).map(|s| Sensitivity::new(scene, frame, s)),
+            placement: frame.placement.as_ref().map(|p| Placement::new(scene, p)),
             capacity: frame.capacity.as_ref().map(|c| Capacity::new(scene, c)),
             only_by_wedging: is_simulated(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
             wedging: (frame.wedged.as_ref()).map(|w| Wedging::new(scene, frame, w)),
@@ -437,6 +442,8 @@ struct StageSeconds {
     solution: Number,
     wedging: Number,
     margins: Number,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    placement: Option<Number>,
 }
 
 impl Solve {
@@ -447,6 +454,7 @@ impl Solve {
             solution: Number(stages.solution),
             wedging: Number(stages.wedging),
             margins: Number(stages.margins),
+            placement: (stages.placement > 0.0).then_some(Number(stages.placement)),
         };
         Solve {
             method: solve.method.name(),

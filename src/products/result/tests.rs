@@ -27,6 +27,7 @@ fn scene() -> Scene {
         centroid: Point::new(1.0, 0.7),
         has_own_centre: false,
         weight: 5.0,
+        placement: 1.0,
         weighs_by_area: false,
     };
     Scene {
@@ -103,6 +104,7 @@ fn frame() -> FrameAnalysis {
         mechanism: vec![Moved { block, velocity: Vector::new(0.5, -0.0), spin: f64::NAN }],
         margins: None,
         sensitivity: None,
+        placement: None,
         capacity: None,
         only_by_wedging: None,
         exact: None,

@@ -11,6 +11,7 @@ pub mod failure;
 pub mod headline;
 pub mod margin;
 pub mod number;
+pub mod placement;
 pub mod proof;
 pub mod sensitivity;
 pub mod verdict;

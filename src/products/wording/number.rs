@@ -250,10 +250,12 @@ pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 { format!("{} ms", digits(seconds * 1e3)) } else { format!("{} s", digits(seconds)) }
 }
 
-/// Writes the coordinates of a point in the length unit of the scene: `(2, 1.5) m`.
+/// Writes the coordinates of a point in the length unit of the scene: `(2, 1.5) m`. A coordinate that is a rounding error
+/// of the other one is written as 0.
 pub fn place(p: Point, units: UnitsEntry) -> String {
     let unit = units.length();
-    let [x, y] = [p.x, p.y].map(|x| digits(unit.value_from_si(x)));
+    let noise = 1e-12 * p.x.abs().max(p.y.abs());
+    let [x, y] = [p.x, p.y].map(|x| digits(if x.abs() <= noise { 0.0 } else { unit.value_from_si(x) }));
     format!("({x}, {y}) {}", unit.symbol())
 }
 

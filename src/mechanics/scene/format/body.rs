@@ -71,6 +71,9 @@ entry! {
         density: Option<f64> [range(min = 0.0)],
         /// Friction coefficient of the body, at least 0. Default: that of its material, else that of the scene.
         friction: Option<f64> [range(min = 0.0)],
+        /// When the placement tolerance is computed, the errors of this block are multiplied by this coefficient, at least
+        /// 0; with 0 the block is exactly in its place. Default 1.
+        placement: Option<f64> [range(min = 0.0), extend("default" = 1.0)],
         /// Fill colour of the body, "#rrggbb" or "#rgb".
         fill: Option<String> [extend("pattern" = FILL_PATTERN)],
     }

@@ -141,10 +141,12 @@ impl Resolution<'_> {
         let weight = at_least_zero(findings, at, "weight", entry.weight);
         let mass = at_least_zero(findings, at, "mass", entry.mass);
         let density = at_least_zero(findings, at, "density", entry.density);
+        let placement = at_least_zero(findings, at, "placement", entry.placement).unwrap_or(1.0);
         if let Some(centre) = entry.centre.filter(|_| !entry.has_outline()) {
             let newtons = weight.map(|w| w * self.units.force().size);
             let weight = newtons.or(mass.map(|mass| mass * self.gravity.norm()));
-            return self.schematic_block(findings, at, entry, i, centre, weight);
+            let block = self.schematic_block(findings, at, entry, i, centre, weight)?;
+            return Some(Block { placement, ..block });
         }
         let centre = entry.centre.filter(|centre| is_sane(findings, &at.key("centre"), centre));
         let body = self.body(findings, at, &entry.into())?;
@@ -176,6 +178,7 @@ impl Resolution<'_> {
             has_own_centre: own_centre.is_some(),
             body,
             weight,
+            placement,
             weighs_by_area,
         })
     }
@@ -225,6 +228,7 @@ impl Resolution<'_> {
             },
             has_own_centre: true,
             weight,
+            placement: 1.0,
             weighs_by_area: false,
         })
     }

@@ -17,6 +17,7 @@ mod kernel;
 mod load;
 pub mod margin;
 pub mod mechanism;
+pub mod placement;
 mod robot;
 mod robot_torque;
 pub mod sticking;
@@ -58,6 +59,8 @@ pub enum EffectName {
     Margins,
     /// Whether a frame stands only by a self-stress that its loads do not build up.
     Wedging,
+    /// How accurately the blocks must be placed. Reported only if it was requested.
+    Placement,
 }
 
 impl EffectName {
@@ -76,6 +79,7 @@ impl EffectName {
             EffectName::Mechanism => "mechanism",
             EffectName::Margins => "margins",
             EffectName::Wedging => "wedging",
+            EffectName::Placement => "placement",
         }
     }
 
@@ -94,6 +98,7 @@ impl EffectName {
             EffectName::Mechanism => "the motion by which it falls",
             EffectName::Margins => "how far loads, friction, tilt and geometry may change before the verdict changes",
             EffectName::Wedging => "whether it stands only by a self-stress that its loads do not build up",
+            EffectName::Placement => "how far blocks may be off their places before the verdict changes",
         }
     }
 }

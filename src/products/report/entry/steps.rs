@@ -171,6 +171,7 @@ fn effect(described: &EffectReport, stages: &Stages) -> ([String; 4], String) {
         _ if !described.simulated => "none".to_owned(),
         EffectName::Margins => duration(stages.margins),
         EffectName::Wedging => duration(stages.wedging),
+        EffectName::Placement => duration(stages.placement),
         _ => "shared".to_owned(),
     };
     let name = format!("{}: {}", described.effect, described.effect.meaning());
@@ -198,7 +199,7 @@ fn stages(stages: &Stages) -> [([String; 4], String); 2] {
         ),
         stage(
             "solving and proving",
-            "all effects are solved together and have no times of their own, except margins and wedging",
+            "all effects are solved together and have no times of their own, except margins, wedging and placement",
             stages.solution,
         ),
     ]

@@ -1,0 +1,194 @@
+//! The other end of a placement tolerance: a pattern of errors with which the component falls.
+
+use super::model::{LARGEST_ERROR, Model};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::analysis::decide::{LimitDistance, ProofCache, decide_verdict};
+use crate::mechanics::program::{Program, Scale};
+use crate::mechanics::proof::Motion;
+use crate::mechanics::solve::{Limit, is_late, largest_factor};
+use crate::mechanics::statics::assembly::Assembly;
+
+/// A pattern counts as no better than another one if its tolerance is smaller by less than this share.
+const IMPROVEMENT: f64 = 1e-6;
+
+/// How far beyond the limit of a pattern the fall is confirmed, as shares of the limit.
+const BEYOND: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
+
+/// How far before the limit of one body's error the stand is confirmed, as shares of the limit.
+const WITHIN: [f64; 3] = [1e-6, 1e-4, 1e-2];
+
+/// The relative accuracy of the limit of a pattern.
+const PATTERN_ACCURACY: f64 = 1e-10;
+
+/// The relative accuracy of the limit of one body's error.
+const OWN_ACCURACY: f64 = 1e-7;
+
+/// Components with at most this many bodies also try each pattern that differs in one body.
+const MAX_NEIGHBOURS: usize = 40;
+
+/// A component, and how far each of its bodies may be off.
+pub(super) struct Errors<'a> {
+    pub component: &'a Assembly,
+    /// The moment of each body per metre of error, N: its weight and the magnitudes of its loads.
+    pub moments: &'a [f64],
+    /// The error of each body is multiplied by this.
+    pub scales: &'a [f64],
+}
+
+/// A pattern of errors with which a component falls.
+pub(super) struct Falling {
+    /// Metres.
+    pub at: f64,
+    /// The sense of the additional moment of each body: 1 anticlockwise, −1 clockwise.
+    pub signs: Vec<f64>,
+    pub mechanism: Vec<Motion>,
+}
+
+impl Errors<'_> {
+    /// Returns the component with the ends of joints `error` metres inside their places, and with the moments of the
+    /// pattern.
+    pub fn placed(&self, error: f64, signs: &[f64]) -> Assembly {
+        let mut moved = self.component.clone();
+        for contact in &mut moved.contacts {
+            let scale = contact.from.map_or(0.0, |body| self.scales[body]).max(self.scales[contact.on]);
+            let along = (contact.points[1] - contact.points[0]).normalize() * (error * scale);
+            contact.points = [contact.points[0] + along, contact.points[1] - along];
+        }
+        for (body, own) in moved.bodies.iter_mut().enumerate() {
+            own.listed.moment += signs[body] * self.moments[body] * self.scales[body] * error / moved.load_factor;
+        }
+        moved.with_summed_loads()
+    }
+
+    /// Returns the largest error of the pattern, metres, with the joints shortened by `shortened` metres, and the
+    /// motion beyond it.
+    fn limit(&self, shortened: f64, signs: &[f64]) -> Option<(f64, Vec<f64>)> {
+        let none = vec![0.0; signs.len()];
+        let moved = self.placed(shortened, &none);
+        let scale = Scale::from_assembly(&moved);
+        let program = Program::new(&moved, scale);
+        let mut direction = vec![0.0; program.loads.len()];
+        for (body, sign) in signs.iter().enumerate() {
+            direction[3 * body + 2] = -sign * self.moments[body] * self.scales[body] / scale.moment();
+        }
+        let extreme = largest_factor(&program, &direction);
+        match extreme.limit {
+            Limit::At(error) => Some((error, extreme.motion?)),
+            Limit::Infeasible => Some((0.0, extreme.motion?)),
+            Limit::Unbounded | Limit::Unsolved => None,
+        }
+    }
+
+    /// Returns the error at which the pattern's limit and the shortening of joints are equal, at most `end`, and the
+    /// motion there: regula falsi with the Illinois rule. `None` if there is none up to `end`.
+    fn root(&self, signs: &[f64], end: f64, accuracy: f64) -> Option<(f64, Vec<f64>)> {
+        let (mut high, mut motion) = self.limit(0.0, signs)?;
+        let mut low = 0.0;
+        let mut above = high;
+        high = high.min(end);
+        let mut below = {
+            let (limit, found) = self.limit(high, signs)?;
+            motion = if limit < high { found } else { motion };
+            limit - high
+        };
+        if below > 0.0 {
+            return (high < end).then_some((high, motion));
+        }
+        for _ in 0..40 {
+            if is_late() || high - low <= accuracy * high {
+                break;
+            }
+            let middle = low + (high - low) * above / (above - below);
+            let (limit, found) = self.limit(middle, signs)?;
+            let rest = limit - middle;
+            if rest.abs() <= accuracy * middle {
+                return Some((middle, found));
+            }
+            if rest > 0.0 {
+                (low, above, below) = (middle, rest, below / 2.0);
+            } else {
+                (high, below, above, motion) = (middle, rest, above / 2.0, found);
+            }
+        }
+        Some((high, motion))
+    }
+
+    /// Finds a pattern with a small limit, from the motion with which affine forces end.
+    pub fn falling(&self, model: &Model, motion: &[f64], start: f64) -> Option<Falling> {
+        let end = model.end_of_joints() * model.metres;
+        let signs = |motion: &[f64], flip: f64| -> Vec<f64> {
+            motion.chunks_exact(3).map(|v| if v[2] * flip < 0.0 { -1.0 } else { 1.0 }).collect()
+        };
+        let mut best: Option<(f64, Vec<f64>)> = None;
+        let count = self.moments.len();
+        let mut starts = vec![vec![1.0; count], vec![-1.0; count]];
+        if motion.len() == 3 * count {
+            starts.extend([signs(motion, 1.0), signs(motion, -1.0)]);
+        }
+        for first in starts {
+            // Follow the motion of each pattern to the pattern that makes it work most.
+            let mut pattern = first;
+            let mut least = f64::INFINITY;
+            while let Some((limit, motion)) = self.limit(start, &pattern)
+                && limit < least * (1.0 - IMPROVEMENT)
+            {
+                least = limit;
+                if best.as_ref().is_none_or(|(at, _)| limit < *at) {
+                    best = Some((limit, pattern.clone()));
+                }
+                pattern = signs(&motion, 1.0);
+            }
+        }
+        let (mut least, mut pattern) = best?;
+        let mut changed = count <= MAX_NEIGHBOURS;
+        while changed && !is_late() {
+            changed = false;
+            for body in (0..count).filter(|body| self.moments[*body] * self.scales[*body] > 0.0) {
+                pattern[body] *= -1.0;
+                match self.limit(start, &pattern) {
+                    Some((limit, _)) if limit < least * (1.0 - IMPROVEMENT) => (least, changed) = (limit, true),
+                    _ => pattern[body] *= -1.0,
+                }
+            }
+        }
+        let (at, _) = self.root(&pattern, end, PATTERN_ACCURACY)?;
+        self.confirmed(at, pattern)
+    }
+
+    /// Returns the largest error of one body, metres, up to which the component is proved to stand. Forces that balance
+    /// both extreme errors balance all errors between them, by a mean of them. `None` if this is not proved.
+    pub fn of_one(&self, body: usize) -> Option<f64> {
+        let joints = self.component.contacts.iter().filter(|contact| contact.on == body || contact.from == Some(body));
+        let lengths = joints.map(|contact| (contact.points[1] - contact.points[0]).norm());
+        let mut least = lengths.fold(f64::INFINITY, f64::min) / self.scales[body] * LARGEST_ERROR;
+        let sides = [1.0, -1.0].map(|sign| {
+            let mut signs = vec![0.0; self.scales.len()];
+            signs[body] = sign;
+            signs
+        });
+        for signs in &sides {
+            // The other side may be farther.
+            if self.limit(least, signs).is_some_and(|(limit, _)| limit < least)
+                && let Some((at, _)) = self.root(signs, least, OWN_ACCURACY)
+            {
+                least = at;
+            }
+        }
+        WITHIN.into_iter().map(|share| least * (1.0 - share)).find(|error| {
+            sides.iter().all(|signs| {
+                let moved = self.placed(*error, signs);
+                decide_verdict(&moved, LimitDistance::Unknown, &mut ProofCache::default()).0 == Verdict::Stable
+            })
+        })
+    }
+
+    /// Returns the first error beyond `at` at which the pattern is proved to fall.
+    fn confirmed(&self, at: f64, signs: Vec<f64>) -> Option<Falling> {
+        BEYOND.into_iter().find_map(|share| {
+            let at = at * (1.0 + share);
+            let (verdict, mechanism) =
+                decide_verdict(&self.placed(at, &signs), LimitDistance::Unknown, &mut ProofCache::default());
+            (verdict == Verdict::Unstable).then(|| Falling { at, signs: signs.clone(), mechanism })
+        })
+    }
+}
