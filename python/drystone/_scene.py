@@ -130,10 +130,12 @@ class Scene:
         friction: float | None = None,
         material: str | None = None,
         fill: str | None = None,
+        placement: float | None = None,
     ) -> Scene:
         """Adds a rigid block.
 
-        One of ``polygon``, ``cells`` and ``shape`` gives its outline; ``centre`` replaces an outline.
+        One of ``polygon``, ``cells`` and ``shape`` gives its outline. ``centre`` replaces an outline, or is the centre of
+        mass beside one. ``placement`` multiplies its errors when the placement tolerance is computed.
         """
         keys = _without(locals(), "self", "id", "polygon", "holes")
         return self._add("blocks", _geometry.block(id, polygon, holes, keys))

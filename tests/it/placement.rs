@@ -113,6 +113,15 @@ fn the_command_line_names_the_blocks_that_are_off_their_places() {
     assert!(all.contains("placement: stands for all errors up to ") && all.contains("; falls with a pattern"), "{all}");
     let (code, one) = run(&["--placement", "--placed", "b"]);
     assert!(code == Some(0) && one.contains("placement: stands") && one != all, "{one}");
+    // Reports and figures state the same number.
+    let tolerance = all.split("up to ").nth(1).and_then(|rest| rest.split(" (").next()).expect("a length").to_owned();
+    for (what, name) in [("report", "out.md"), ("render", "out.svg")] {
+        let output = folder.path().join(name);
+        let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
+        let status = command.arg(what).arg(&file).arg("--placement").arg("-o").arg(&output).status().expect("it runs");
+        let text = fs::read_to_string(&output).expect("written").replace('\u{a0}', " ");
+        assert!(status.success() && text.contains(&format!("for all errors up to {tolerance}")), "{name}: {tolerance}");
+    }
     let (code, wrong) = run(&["--placement", "--placed", "b,c"]);
     assert!(code == Some(2) && wrong.contains("there is no block c"), "{wrong}");
     let (code, alone) = run(&["--placed", "b"]);

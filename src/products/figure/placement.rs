@@ -16,7 +16,7 @@ use crate::mechanics::analysis::{Analysis, Placement, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Outline, PagePoint, Path, Stroke};
 use crate::products::wording::number::{digits, round_below, three_down, three_up};
-use crate::products::wording::placement::length;
+use crate::products::wording::placement::{length, proved};
 
 /// The length of the largest error of the pattern in the picture, mm.
 const SHOWN_ERROR: f64 = 3.0;
@@ -72,12 +72,12 @@ impl Figure for PlacementTolerance {
 
 /// Returns the words after the verdict.
 fn sentences(scene: &Scene, placement: &Placement) -> Vec<String> {
-    let proved = length(scene, placement.proved, three_down);
+    let stands = length(scene, placement.proved, three_down);
     let falls = placement.falls_at.map(|at| match length(scene, at, three_up) {
-        at if at == proved => "the grey pattern falls just beyond".to_owned(),
+        at if at == stands => "the grey pattern falls just beyond".to_owned(),
         at => format!("the grey pattern falls at {at}"),
     });
-    [Some(format!("safe for all errors up to {proved}")), falls].into_iter().flatten().collect()
+    [Some(proved(scene, placement)), falls].into_iter().flatten().collect()
 }
 
 /// Draws the outlines of the blocks with the errors of the pattern, enlarged by a round number.

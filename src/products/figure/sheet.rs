@@ -15,6 +15,7 @@ use crate::geometry::{Bounds, Point};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, MarginKind, Verdict};
 use crate::pictures::drawing::{Anchor, Colour, Drawing, Face, Group, Item, PagePoint, Text, text};
 use crate::products::wording::margin::governing;
+use crate::products::wording::placement;
 
 /// The margin of the page, mm.
 const MARGIN: f64 = 1.0;
@@ -598,11 +599,13 @@ pub(crate) fn margin_words(analysis: &Analysis, frame: usize, options: &Options)
     let unexplained =
         found.verdict == Verdict::Undecided || found.verdict == Verdict::Unstable && found.failures.is_empty();
     // The panels of a strip are too narrow for margins.
-    let margin = if options.verdict_margin && analysis.frames.len() == 1 {
+    let mut margin = if options.verdict_margin && analysis.frames.len() == 1 {
         governing(scene, frame, found).words
     } else {
         Vec::new()
     };
+    // The placement tolerance is computed only if it was asked for; in a strip it shows which step is delicate.
+    margin.extend(found.placement.as_ref().map(|placement| placement::proved(scene, placement)));
     if margin.is_empty() && unexplained {
         let reason = verdict::reason(scene, found);
         return if reason.is_empty() { Vec::new() } else { vec![reason] };

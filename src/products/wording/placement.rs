@@ -14,6 +14,11 @@ pub fn length(scene: &Scene, metres: f64, rounded: fn(f64) -> String) -> String 
     format!("{} mm", rounded(1e3 * metres))
 }
 
+/// States the proved placement tolerance in a few words, for figures.
+pub fn proved(scene: &Scene, placement: &Placement) -> String {
+    format!("safe for all errors up to {}", length(scene, placement.proved, three_down))
+}
+
 /// Describes the placement tolerance of a frame in one sentence without a full stop.
 pub fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis, placement: &Placement) -> String {
     let stands = format!(

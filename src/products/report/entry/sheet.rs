@@ -12,7 +12,7 @@ use crate::pictures::drawing::Drawing;
 use crate::products::figure::{self, Kind, Options};
 use crate::products::wording::number::letter;
 use crate::products::wording::verdict::plain;
-use crate::products::wording::{proof, verdict};
+use crate::products::wording::{placement, proof, verdict};
 use crate::text::line;
 
 /// Width of a figure, in pixels. It is half a page, so that labels are legible in print and on a phone.
@@ -83,7 +83,7 @@ pub(super) fn sheet(
     parts.push(SheetPart::Heading("Assumptions and proof".to_owned()));
     parts.push(SheetPart::Text(assumptions(scene, frame_analysis)));
     parts.push(SheetPart::Text(proof::sentence(frame_analysis.proof)));
-    parts.extend(remarks(frame_analysis).into_iter().map(SheetPart::Note));
+    parts.extend(remarks(scene, frame_analysis).into_iter().map(SheetPart::Note));
     section
 }
 
@@ -261,9 +261,12 @@ fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     )
 }
 
-/// Returns the remarks at the end of the main section. They are the result of the test for wedging, if the test was
-/// made and did not show that the structure stands without wedging, and the notices of the analysis.
-fn remarks(frame_analysis: &FrameAnalysis) -> Vec<String> {
+/// Returns the remarks at the end of the main section. They are the placement tolerance, the result of the test for
+/// wedging, if the test was made and did not show that the structure stands without wedging, and the notices of the
+/// analysis.
+fn remarks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
+    let placement = frame_analysis.placement.as_ref();
+    let placement = placement.map(|p| format!("Placement: {}.", line(&placement::sentence(scene, frame_analysis, p))));
     let wedging = frame_analysis
         .effects
         .iter()
@@ -271,5 +274,5 @@ fn remarks(frame_analysis: &FrameAnalysis) -> Vec<String> {
         .filter(|_| frame_analysis.only_by_wedging != Some(false));
     let wedging = wedging.map(|w| format!("Wedging: {}.", line(&w.why)));
     let notices = frame_analysis.notices.iter().map(|n| format!("Note: {}.", line(n)));
-    wedging.into_iter().chain(notices).collect()
+    placement.into_iter().chain(wedging).chain(notices).collect()
 }
