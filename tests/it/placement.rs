@@ -94,6 +94,12 @@ fn a_block_that_is_in_its_place_leaves_room_for_the_others() {
 }
 
 #[test]
+fn blocks_without_friction_have_a_tolerance() {
+    let one = on_floor(0.0, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 5.0)]);
+    compare("block", &tolerance(scene(&one)), 250.0, 250.0);
+}
+
+#[test]
 fn the_command_line_names_the_blocks_that_are_off_their_places() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("pile.json");

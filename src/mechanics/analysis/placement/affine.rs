@@ -29,13 +29,13 @@ const LAST_TOLERANCE: f64 = 1e-5;
 /// at its ends, and an interior-point method that stops early returns such multipliers.
 const FIRST_TOLERANCE: f64 = 1e-2;
 
-/// The accuracy of a master program, as a share of the gap that new forces closed last.
+/// How accurately a master program is solved, as a share of the gap that the last new forces left.
 const TOLERANCE_OF_GAP: f64 = 1e-2;
 
 /// The optimum is reached if new forces improve it by less than this share.
 const GAP: f64 = 3e-5;
 
-/// Rounds of the method. Arches and towers take three to ten, walls up to thirty.
+/// The largest number of rounds. The structures of the tests take three to fifteen.
 const MAX_ROUNDS: usize = 60;
 
 /// A residual of the balance above this share of the heaviest load makes a proof void.
@@ -103,7 +103,7 @@ pub(super) fn largest_tolerance(model: &Model) -> Robust {
         }
         found.motion.clone_from(&master.motion);
         found.row = weights.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map(|(row, _)| row);
-        let new = price(model, &rows, weights, &loose, accuracy);
+        let new = cheapest_reactions(model, &rows, weights, &loose, accuracy);
         let least: f64 = new.iter().map(|(reaction, cost)| model.moments[reaction.body] * cost).sum();
         let next = master.next(model, &rows, &known, tolerance).clamp(0.0, end);
         let is_still = (next - tolerance).abs() <= GAP * next.max(tolerance) || tolerance == 0.0 && next == 0.0;
@@ -261,13 +261,19 @@ impl Master {
 }
 
 /// Returns, for each body, the reaction with the least Σ λ |row · x|, and this sum. λ are the weights of the rows.
-fn price(model: &Model, rows: &[Row], weights: &[f64], bodies: &[usize], accuracy: f64) -> Vec<(Reaction, f64)> {
+fn cheapest_reactions(
+    model: &Model,
+    rows: &[Row],
+    weights: &[f64],
+    bodies: &[usize],
+    accuracy: f64,
+) -> Vec<(Reaction, f64)> {
     let until = deadline();
     let (share, least, most) = NEW_ACCURACY;
     let accuracy = (share * accuracy).clamp(least, most);
     let one = |body: &usize| {
         let _guard = DeadlineGuard::new(until);
-        price_body(model, rows, weights, *body, accuracy)
+        cheapest_reaction(model, rows, weights, *body, accuracy)
     };
     #[cfg(feature = "parallel")]
     return bodies.par_iter().filter_map(one).collect();
@@ -275,7 +281,13 @@ fn price(model: &Model, rows: &[Row], weights: &[f64], bodies: &[usize], accurac
     return bodies.iter().filter_map(one).collect();
 }
 
-fn price_body(model: &Model, rows: &[Row], weights: &[f64], body: usize, accuracy: f64) -> Option<(Reaction, f64)> {
+fn cheapest_reaction(
+    model: &Model,
+    rows: &[Row],
+    weights: &[f64],
+    body: usize,
+    accuracy: f64,
+) -> Option<(Reaction, f64)> {
     let unknowns = model.columns.len();
     let most = weights.iter().fold(0.0, |most: f64, weight| most.max(*weight));
     let mut matrix = Vec::new();

@@ -108,7 +108,7 @@ pub(super) fn find_placement<'a>(scene: &Scene, components: impl Iterator<Item =
     })
 }
 
-/// Computes the placement tolerance of one component. `None` if no error of it is allowed for.
+/// Computes the placement tolerance of one component. `None` if none of its bodies can be off its place.
 fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
     let loads = |block: BlockId| {
         let own = scene.loads.iter().filter(|load| load.block == block);

@@ -15,6 +15,10 @@ use crate::mechanics::statics::assembly::Assembly;
 /// solver can solve.
 pub(super) const LARGEST_ERROR: f64 = 0.4995;
 
+/// What is added to the diagonal of the normal equations, as a share of its largest entry. Repeated corrections remove
+/// its effect.
+const REGULARISATION: f64 = 1e-12;
+
 /// A condition on the forces: the sum of coefficient · unknown is at most `limit`.
 pub(super) struct Row {
     pub entries: Vec<(usize, f64)>,
@@ -105,6 +109,11 @@ impl Model {
                 }
             }
         }
+        // Without friction, some rows have no entries; they are balanced already, and this keeps the matrix regular.
+        let largest = normal.diagonal().max();
+        for row in 0..loads.len() {
+            normal[(row, row)] += REGULARISATION * largest;
+        }
         let normal = Cholesky::new(normal);
         Some(Model { columns, loads, moments, metres: scale.length, joints, grips, normal })
     }
@@ -160,7 +169,7 @@ impl Model {
     pub fn balanced(&self, mut x: Vec<f64>, loads: &[f64]) -> (Vec<f64>, f64) {
         let mut residual = self.residual(&x, loads);
         if let Some(normal) = &self.normal {
-            for _ in 0..2 {
+            for _ in 0..3 {
                 let step = normal.solve(&DVector::from_column_slice(&residual));
                 for (amount, column) in x.iter_mut().zip(&self.columns) {
                     *amount += column.iter().map(|(row, value)| value * step[*row]).sum::<f64>();

@@ -31,7 +31,7 @@ pub(super) struct Errors<'a> {
     pub component: &'a Assembly,
     /// The moment of each body per metre of error, N: its weight and the magnitudes of its loads.
     pub moments: &'a [f64],
-    /// The error of each body is multiplied by this.
+    /// The factor on the error of each body: the key `placement` of its block.
     pub scales: &'a [f64],
 }
 
