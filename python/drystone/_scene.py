@@ -202,14 +202,35 @@ class Scene:
 
     def load(
         self,
-        block: str,
+        block: str | None = None,
         force: Point | None = None,
         *,
         at: Point | None = None,
         torque: float | None = None,
+        id: str | None = None,
+        pressure: float | Point | Mapping[str, float] | None = None,
+        side: str | None = None,
+        between: Sequence[Point] | None = None,
+        fixed: bool | None = None,
     ) -> Scene:
-        """Adds a load on a block: a force in N, a torque in N·m, or both."""
+        """Adds a load: a force in N, a torque in N·m or both on a block, or a pressure in N/m² on sides of blocks.
+
+        ``pressure`` is a number, a pair of numbers at both ends, or a dict with ``surface``, ``unit_weight``,
+        ``coefficient`` and ``friction_angle``. It acts on the ``side`` of the block ("left", "right", "top" or
+        "bottom"), or on the free edges ``between`` two points. A ``fixed`` load keeps its amount when the load factor
+        changes.
+        """
         return self._add("loads", _without(locals(), "self"))
+
+    def case(
+        self,
+        id: str,
+        *,
+        weights: float | None = None,
+        loads: Mapping[str, float] | None = None,
+    ) -> Scene:
+        """Adds a load case: factors on all ``weights`` and on each of the ``loads`` that act, by their ids."""
+        return self._add("cases", _without(locals(), "self"))
 
     def contact(
         self,

@@ -38,6 +38,7 @@ mod laws;
 mod layers;
 mod leaders;
 mod lines;
+mod loads;
 mod notes;
 mod pebbles;
 mod oracle;

@@ -107,6 +107,8 @@ fn title(name: &str) -> &str {
         "RobotEntry" => "A robot",
         "LimitsEntry" => "Limits",
         "LoadEntry" => "A load",
+        "DepthEntry" => "A pressure that grows with the depth",
+        "CaseEntry" => "A load case",
         "StepEntry" => "A step",
         "GripEntry" => "A grip",
         "UnitsEntry" => "Units",
@@ -160,6 +162,7 @@ fn object_table(schema: &Value, definitions: &Value) -> String {
                 "degrees",
                 "coefficient",
                 "kernel",
+                "Factor",
             ];
             assert!(units.iter().any(|u| meaning.contains(u)), "{key} has no unit: {meaning}");
         }
@@ -188,6 +191,8 @@ fn the_format_page_describes_every_key_of_a_scene_file() {
         "RobotEntry",
         "LimitsEntry",
         "LoadEntry",
+        "DepthEntry",
+        "CaseEntry",
         "StepEntry",
         "GripEntry",
         "UnitsEntry",
@@ -342,6 +347,14 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
     texts.push(
         r#"{ "drystone": 1, "ground": [{ "polygon": [[-1, -1], [5, -1], [5, 0], [-1, 0]] }],
             "blocks": [{ "polygon": [[0, 0], [4, 0], [4, 4], [0, 4]], "holes": [[[1, 1], [2, 1], [2, 2]]] }] }"#
+            .to_owned(),
+    );
+    // A block with load cases.
+    texts.push(
+        r#"{ "drystone": 1, "ground": [{ "polygon": [[-1, -1], [5, -1], [5, 0], [-1, 0]] }],
+            "blocks": [{ "id": "a", "polygon": [[0, 0], [4, 0], [4, 4], [0, 4]], "weight": 9 }],
+            "loads": [{ "id": "push", "block": "a", "force": [1, 0] }],
+            "cases": [{ "id": "with" }, { "id": "without", "loads": {} }] }"#
             .to_owned(),
     );
     for folder in ["assets/thesis", "tests/scenes"] {

@@ -340,7 +340,8 @@ impl PictureOutput {
         } else {
             Arc::clone(&analysis.scene)
         };
-        let shown = Analysis { scene: legible, frames: analysis.frames.clone(), notes: Vec::new() };
+        let case_scenes = analysis.case_scenes.clone();
+        let shown = Analysis { scene: legible, frames: analysis.frames.clone(), notes: Vec::new(), case_scenes };
         let drawing = figure::forces(&shown, &self.options);
         match self.picture.bytes(drawing, self.format, &self.fonts) {
             Ok(bytes) => {

@@ -11,7 +11,7 @@ use crate::mechanics::scene::{Frame, Scene};
 use crate::products::result::Timing;
 use crate::products::wording::number::{amount, duration, letter, tenths};
 use crate::products::wording::verdict::plain;
-use crate::products::wording::{capacity, failure, margin, placement, proof};
+use crate::products::wording::{capacity, case, failure, margin, placement, proof};
 use crate::text::heading;
 
 /// The words in the tables and in the lines below them, with their meanings.
@@ -321,6 +321,7 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) 
     if let Some(effect) = wedging.filter(|_| frame.only_by_wedging != Some(false)) {
         remarks.push(format!("wedging: {}", effect.why));
     }
+    remarks.extend(case::lines(frame));
     remarks.extend(margin::lines(scene, frame));
     remarks.extend(frame.placement.as_ref().map(|p| format!("placement: {}", placement::sentence(scene, frame, p))));
     let carried = frame.capacity.iter();

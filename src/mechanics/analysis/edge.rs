@@ -86,7 +86,7 @@ impl Analysis {
             }
             Toward::LoadFactor => {
                 let factor = at * (1.0 + outward * DEGREES_BEYOND_LIMIT.to_radians());
-                for load in &mut scene.loads {
+                for load in scene.loads.iter_mut().filter(|load| !load.is_fixed) {
                     load.force *= factor;
                     load.torque *= factor;
                 }

@@ -37,6 +37,7 @@ pub(super) fn unloaded_frame(context: &FrameContext, assembly: &Assembly, effect
         capacity: None,
         only_by_wedging: None,
         exact: None,
+        cases: None,
         wedged: None,
         effects,
         proof: Proof::Forces { worst_imbalance: 0.0, worst_share: 0.0, worst_pull: 0.0, worst_slip: 0.0 },

@@ -7,6 +7,7 @@
 
 mod analyse;
 mod capacity;
+mod cases;
 mod decide;
 mod force;
 mod undecided;
@@ -44,6 +45,7 @@ pub use capacity::{
     CapacityEdge, CapacityError, CapacityRequest, CapacityShape, CapacityVertex, Cases, ForceAt, LoadCapacity,
     VertexForce,
 };
+pub use cases::{CaseResult, Envelope, LoadCases};
 pub use decide::Method;
 #[cfg(feature = "certificate")]
 pub(crate) use decide::mechanism_of;
@@ -119,13 +121,16 @@ impl fmt::Display for Verdict {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Analysis {
-    /// The analysed scene.
+    /// The analysed scene. If the scene has load cases, this is the scene in the worst case of its worst frame;
+    /// [`Analysis::scene_of`] returns it for each frame.
     pub scene: Arc<Scene>,
     /// One entry per frame of the scene, in order.
     pub frames: Vec<FrameAnalysis>,
     /// Notes on things that are allowed but seldom intended: the notes of the scene, and notes on gaps that are
     /// nearly contacts.
     pub notes: Vec<Note>,
+    /// For a scene with load cases: for each frame, the scene in its worst case. Otherwise empty.
+    pub(crate) case_scenes: Vec<Arc<Scene>>,
 }
 
 /// The results of one frame.
@@ -169,6 +174,8 @@ pub struct FrameAnalysis {
     pub margins: Option<Margins>,
     /// How a margin changes with corners, weights, friction and loads, if requested.
     pub sensitivity: Option<Sensitivity>,
+    /// The results of the load cases, if the scene has any. All other results are those of the worst case.
+    pub cases: Option<LoadCases>,
     /// How accurately the blocks must be placed, if requested and if the frame stands.
     pub placement: Option<Placement>,
     /// The forces that a block can carry, if requested and if the block is placed.
@@ -214,18 +221,24 @@ impl Analysis {
     /// Analyses every frame of a scene. `options` request additional results, such as margins.
     pub fn with(scene: impl Into<Arc<Scene>>, options: &Options) -> Analysis {
         let scene = scene.into();
+        if !scene.cases.is_empty() {
+            return Analysis::of_cases(scene, options);
+        }
         let (interfaces, mut frames) = analyse::analyse(&scene, options);
         gaps_closed::recheck(&scene, &interfaces, &mut frames, options);
         capacity::add_capacities(&scene, &interfaces, &mut frames, options);
         let notes = gaps_closed::notes(&scene, &interfaces);
-        Analysis { scene, frames, notes }
+        Analysis { scene, frames, notes, case_scenes: Vec::new() }
     }
 
     /// Returns the analysis of one frame alone, whose scene has only this frame too. `number` is counted from 0. `None`
     /// if there is no such frame.
     pub(crate) fn alone(&self, number: usize) -> Option<Analysis> {
         let frames = vec![self.frames.get(number)?.clone()];
-        Some(Analysis { scene: self.scene.alone(number)?.into(), frames, notes: self.notes.clone() })
+        let case_scenes = self.case_scenes.get(number).and_then(|scene| scene.alone(number)).map(Arc::new);
+        let scene = self.scene.alone(number)?.into();
+        let case_scenes = case_scenes.into_iter().collect();
+        Some(Analysis { scene, frames, notes: self.notes.clone(), case_scenes })
     }
 
     /// Returns the worst verdict of all frames; stable if there are no frames.

@@ -64,7 +64,7 @@ impl BodyForces {
             load: 0.0,
         };
         acting.load(pull * body.weight, 0.0);
-        let listed = body.listed.times(load_factor);
+        let listed = body.given(load_factor);
         acting.load(listed.force, listed.moment);
         acting
     }

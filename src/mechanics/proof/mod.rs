@@ -281,7 +281,7 @@ pub fn moving_load(assembly: &Assembly, motions: &[Motion]) -> f64 {
 ///
 /// Loads in opposite directions do not cancel in this sum.
 pub fn gross_load(assembly: &Assembly, body: &AssemblyBody) -> f64 {
-    let listed = body.listed.times(assembly.load_factor);
+    let listed = body.given(assembly.load_factor);
     let moment = listed.moment.abs() / body.radius();
     assembly.pull.norm() * body.weight + listed.force.norm() + moment
 }

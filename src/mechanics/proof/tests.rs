@@ -19,6 +19,7 @@ fn body(number: usize, bottom: f64, height: f64, weight: f64, listed: LoadVector
         corners: corners.map(|(x, y)| Point::new(x, bottom + y)).into(),
         weight,
         listed,
+        fixed: LoadVector::ZERO,
         load: LoadVector::ZERO,
     }
 }

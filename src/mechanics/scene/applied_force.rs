@@ -1,6 +1,7 @@
 //! [`AppliedForce`]: a weight or a load, as a force that acts on a block from outside the structure.
 
-use super::{BlockId, Point, Scene, Vector};
+use super::{BlockId, Load, Point, Scene, Vector};
+use crate::geometry::{cross, quarter_turn};
 
 /// A given force on a block: its weight or a load. Contact forces and the forces of robots are not applied forces.
 #[derive(Clone, Copy, Debug)]
@@ -56,5 +57,36 @@ impl Scene {
             });
         }
         forces
+    }
+    /// Returns the loads on the placed blocks as people list them: each load, and for each pressure its resultant. The
+    /// resultant acts on the block that carries the largest part.
+    pub(crate) fn loads_on(&self, placed: &[BlockId]) -> Vec<Load> {
+        let mut is_placed = vec![false; self.blocks.len()];
+        placed.iter().for_each(|block| is_placed[block.0] = true);
+        let mut listed: Vec<Load> = Vec::new();
+        for load in self.loads.iter().filter(|load| is_placed[load.block.0]) {
+            match listed.last_mut().filter(|last| load.spread.is_some() && last.entry == load.entry) {
+                Some(sum) => *sum = resultant(sum, load),
+                None => listed.push(*load),
+            }
+        }
+        listed
+    }
+}
+
+/// Returns the load that is equivalent to two loads together. It acts on the block with the larger force.
+fn resultant(first: &Load, second: &Load) -> Load {
+    let force = first.force + second.force;
+    let share = second.force.norm() / (first.force.norm() + second.force.norm());
+    let at: Point = first.at + (second.at - first.at) * share;
+    let moment = |load: &Load| cross(load.at - at, load.force) + load.torque;
+    let moment = moment(first) + moment(second);
+    let block = if share > 0.5 { second.block } else { first.block };
+    // The force alone has this moment if it acts on a parallel line through the moved point.
+    let away = quarter_turn(force) * (-moment / force.norm_squared());
+    if away.iter().all(|x| x.is_finite()) {
+        Load { force, at: at + away, torque: 0.0, block, ..*first }
+    } else {
+        Load { force, at, torque: moment, block, ..*first }
     }
 }

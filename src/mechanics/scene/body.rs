@@ -143,8 +143,37 @@ pub struct Load {
     pub at: Point,
     /// Torque in N·m, anticlockwise positive.
     pub torque: f64,
+    /// Whether the load keeps its amount when the load factor changes.
+    pub is_fixed: bool,
+    /// The index of the load in the list of the file. The pressure of one entry acts on several edges, as one load on
+    /// each.
+    pub entry: usize,
+    /// Where the load is spread, if it is a pressure.
+    pub spread: Option<Spread>,
     /// Whether the force acts at the centroid because the file gives no point.
     pub(crate) at_centroid: bool,
+}
+
+/// A load that is spread along an edge of a block and varies linearly between its ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Spread {
+    /// The ends, metres.
+    pub ends: [Point; 2],
+    /// The force per length of the edge at each end, N/m.
+    pub force: [Vector; 2],
+}
+
+/// A load case: a factor on the weights, and the factors on the loads that act in it.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Case {
+    /// The id given in the file.
+    pub id: String,
+    /// Factor on the weights of all blocks.
+    pub weights: f64,
+    /// Factor on each load, by the index of the load in the list of the file; 0 for a load that does not act.
+    pub loads: Vec<f64>,
 }
 
 /// A contact that the file lists: a point at which two bodies touch.

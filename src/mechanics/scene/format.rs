@@ -9,6 +9,7 @@
 mod body;
 mod declare;
 mod lines;
+mod load;
 mod map;
 mod step;
 mod unit;
@@ -21,8 +22,9 @@ use self::declare::{entry, word};
 use super::{NoteCode, Scene, SceneError};
 use crate::read::{Expected, Node, NodeKind, Read, Reader, Trail};
 
-pub use body::{BlockEntry, ContactEntry, GroundEntry, LimitsEntry, LoadEntry, RobotEntry};
+pub use body::{BlockEntry, ContactEntry, GroundEntry, LimitsEntry, RobotEntry};
 pub(crate) use lines::Lines;
+pub use load::{CaseEntry, DepthEntry, LoadEntry, PressureEntry, Side};
 pub use map::Map;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
 pub use unit::{ForceUnit, LengthUnit, UnitsEntry};
@@ -83,6 +85,9 @@ entry! {
         robots: Vec<RobotEntry>,
         /// Loads on blocks, in addition to their weights.
         loads: Vec<LoadEntry>,
+        /// Load cases. With cases, the verdict of a frame is that of its worst case. Without cases, all loads act with
+        /// factor 1.
+        cases: Vec<CaseEntry>,
         /// Contact tolerance in the length unit of the scene, at least 0: edges at most this far apart touch, and
         /// bodies may overlap by up to this depth. Default: estimated from how the coordinates are written and how
         /// large the scene is.
@@ -186,6 +191,12 @@ impl SceneFile {
     /// Adds a load on a block.
     pub fn load(mut self, load: LoadEntry) -> Self {
         self.loads.push(load);
+        self
+    }
+
+    /// Adds a load case. With cases, the verdict of a frame is that of its worst case.
+    pub fn case(mut self, case: CaseEntry) -> Self {
+        self.cases.push(case);
         self
     }
 

@@ -26,8 +26,8 @@ mod unit;
 
 pub use applied_force::{AppliedForce, ForceCause};
 pub use body::{
-    Block, BlockId, Body, BodyId, Frame, Grip, Ground, Hold, Limits, ListedContact, Load, Material, Plan, Rgb, Robot,
-    RobotId,
+    Block, BlockId, Body, BodyId, Case, Frame, Grip, Ground, Hold, Limits, ListedContact, Load, Material, Plan, Rgb,
+    Robot, RobotId, Spread,
 };
 pub use collision::Penetration;
 pub(crate) use fault::isolate;
@@ -89,6 +89,8 @@ pub struct Scene {
     pub(crate) robots: Vec<Robot>,
     /// Loads on blocks.
     pub(crate) loads: Vec<Load>,
+    /// The load cases; empty if all loads act as listed.
+    pub(crate) cases: Vec<Case>,
     /// Materials, in the file's order.
     pub(crate) materials: Vec<Material>,
     /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`].
@@ -203,6 +205,11 @@ impl Scene {
     /// Returns the loads on blocks, which act in addition to the weights.
     pub fn loads(&self) -> &[Load] {
         &self.loads
+    }
+
+    /// Returns the load cases; empty if all loads act as listed.
+    pub fn cases(&self) -> &[Case] {
+        &self.cases
     }
 
     /// Returns the materials, in the file's order.

@@ -238,15 +238,15 @@ impl Notes<'_> {
 
     fn loads(&mut self, file: &SceneFile) {
         let top = Trail::Top;
-        for ((i, entry), load) in file.loads.iter().enumerate().zip(&self.scene.loads) {
+        for load in &self.scene.loads {
             let loaded = &self.scene.blocks[load.block.0];
-            if let Some(at) = entry.at
+            if let Some(at) = file.loads[load.entry].at
                 && let Some(distance) = self.outside(&loaded.body, at)
             {
                 let unit = self.scene.units.length();
                 let wording = say::load_outside(&loaded.id, at, distance, &unit.symbol());
                 let loads = top.key("loads");
-                self.add(NoteCode::LoadOutside, &loads.index(i).key("at"), wording);
+                self.add(NoteCode::LoadOutside, &loads.index(load.entry).key("at"), wording);
             }
         }
     }

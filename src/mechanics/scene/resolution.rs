@@ -3,7 +3,9 @@
 mod body;
 mod closeness;
 mod contact;
+mod free_edges;
 mod list;
+mod load;
 mod sketch;
 
 use self::closeness::Closeness;
@@ -69,6 +71,7 @@ struct Resolution<'f> {
     outlines: Vec<Option<Outline>>,
     ids: Vec<String>,
     robot_ids: Vec<String>,
+    load_ids: Vec<String>,
 }
 
 /// The values that a material gives. A value that is not valid is absent.
@@ -110,6 +113,9 @@ impl<'f> Resolution<'f> {
             robot_ids: (file.robots.iter().enumerate())
                 .map(|(i, r)| r.id.clone().unwrap_or_else(|| format!("r{i}")))
                 .collect(),
+            load_ids: (file.loads.iter().enumerate())
+                .map(|(i, l)| l.id.clone().unwrap_or_else(|| (i + 1).to_string()))
+                .collect(),
         };
         resolution.material_entries = material_values(findings, file);
         resolution.outlines = resolution.shape_outlines(findings);
@@ -136,7 +142,8 @@ impl<'f> Resolution<'f> {
         let centroids: Vec<Point> =
             (blocks.iter()).map(|b| b.as_ref().map_or(Point::origin(), |b| b.centroid)).collect();
         let robots = self.robots(findings, &names.blocks, &centroids);
-        let loads = self.loads(findings, &names.blocks, &centroids);
+        let loads = self.loads(findings, &names.blocks, &ground, &blocks);
+        let cases = self.cases(findings);
         let mut frames = self.frames(findings, &names, &robots, &centroids);
         for frame in &mut frames {
             frame.expected = frame.expected.or(self.file.expect);
@@ -162,6 +169,7 @@ impl<'f> Resolution<'f> {
             blocks: blocks.into_iter().collect::<Option<_>>()?,
             robots,
             loads,
+            cases,
             materials: materials.map(|m| Material { name: m.0.clone() }).collect(),
             friction_pairs,
             // A listed contact is a single point, so it transmits force in the same way as a corner contact.

@@ -159,6 +159,10 @@ pub(super) fn to_si(scene: &mut Scene) {
     for load in &mut scene.loads {
         load.force *= force;
         load.torque *= torque;
+        if let Some(spread) = &mut load.spread {
+            spread.ends = spread.ends.map(|end| Point::from(end.coords * length));
+            spread.force = spread.force.map(|along| along * (force / length));
+        }
     }
     for limits in scene.robots.iter_mut().map(|r| &mut r.limits) {
         limits.fx *= force;

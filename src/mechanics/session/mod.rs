@@ -180,7 +180,7 @@ impl Session {
     }
 
     fn remove_from_file(&mut self, block: &str) {
-        self.file.loads.retain(|load| load.block != block);
+        self.file.loads.retain(|load| load.block.as_deref() != Some(block));
         let named = |entry: &BlockEntry| entry.id.as_deref() == Some(block);
         self.file.blocks.retain(|entry| !named(entry));
     }
@@ -281,7 +281,8 @@ impl Session {
 
     /// Computes and stores the verdict on the placed blocks.
     fn update_verdict(&mut self) -> Verdict {
-        (self.verdict, self.source) = if hinges_on_gaps(&self.scene, &self.found) {
+        let is_examined = hinges_on_gaps(&self.scene, &self.found) || !self.scene.cases.is_empty();
+        (self.verdict, self.source) = if is_examined {
             let frames = Analysis::with(&self.scene, &self.options.only_verdict()).frames;
             let verdict = frames.first().map_or(Verdict::Stable, |f| f.verdict);
             (verdict, Source::Examined)
@@ -300,7 +301,9 @@ impl Session {
     /// True if a step can be computed without reading the whole scene again: if all bodies consist of lattice cells,
     /// and the scene has no corner contacts.
     fn is_incremental(&self) -> bool {
-        self.scene.exact && !self.scene.corner_contacts
+        // Pressures between two points act on edges that touch no other body, so every block may change them.
+        let changes_pressures = self.file.loads.iter().any(|load| !load.between.is_empty());
+        self.scene.exact && !self.scene.corner_contacts && !changes_pressures
     }
 
     /// Adds a block that consists of lattice cells, without reading the whole scene again. Returns false, and adds

@@ -112,7 +112,7 @@ impl<'a> Canvas<'a> {
     }
 
     pub fn scene(&self) -> &'a Scene {
-        &self.analysis.scene
+        self.analysis.scene_of(self.number)
     }
 
     pub fn frame(&self) -> &'a Frame {

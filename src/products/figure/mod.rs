@@ -36,6 +36,7 @@ mod parallel_arrows;
 mod placement;
 mod placing;
 mod polygon;
+mod pressure;
 mod ring;
 mod sensitivity;
 mod shapes;

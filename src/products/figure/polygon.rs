@@ -152,7 +152,7 @@ impl Figure for ForcePolygon {
 /// Returns the external forces on the structure of a frame, in the order of the polygon: weights and loads block by
 /// block, forces of the ground and of robots, missing forces.
 fn sides(analysis: &Analysis, frame: usize) -> Vec<Side> {
-    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+    let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
     let applied = scene.applied_forces();
     let placed = scene.frames[frame].placed.iter().flat_map(|id| &applied[id.0]);
     let actions = placed.map(|applied| {

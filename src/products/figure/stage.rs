@@ -207,8 +207,9 @@ pub(crate) fn names(canvas: &mut Canvas<'_>) {
 /// the point.
 pub(crate) fn loads(canvas: &mut Canvas<'_>) {
     let (scene, placed) = (canvas.scene(), &canvas.frame().placed);
-    let loads: Vec<&Load> = scene.loads.iter().filter(|load| placed.contains(&load.block)).collect();
-    let all = scene.loads.iter().map(|load| load.force.norm());
+    super::pressure::diagrams(canvas);
+    let loads = scene.loads_on(placed);
+    let all = scene.loads_on(&shown_blocks(scene)).into_iter().map(|load| load.force.norm());
     let largest = all.fold(0.0, f64::max);
     let longest = canvas.scale * largest;
     let fits = (canvas.mm(5.0)..=canvas.mm(11.0)).contains(&longest);
@@ -228,7 +229,7 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
         symbol.push(Path::filled(Outline::circle(PagePoint::new(canvas.mm(5.0), 0.0), canvas.mm(0.5)), ink));
     }
     let key = Rc::new(Key { rank: LOAD_RANK, words, symbol, width: canvas.mm(5.5) });
-    for load in loads {
+    for load in &loads {
         if load.force.norm() > 0.0 {
             one_load(canvas, load, scale, &key, load.force.norm() >= least);
         }
@@ -239,7 +240,7 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
             let title =
                 format!("Torque of a load on block {on}: {}", turning(load.torque, quantity(load.torque.abs(), units)));
             // Torques at one point have arcs with different radii.
-            let turns = scene.loads.iter().take_while(|other| !core::ptr::eq(*other, load));
+            let turns = loads.iter().take_while(|other| !core::ptr::eq(*other, load));
             let here = turns.filter(|other| other.torque != 0.0 && (other.at - load.at).norm() < 1e-6).count();
             let radius = 2.6 + 1.5 * here as f64;
             let mark = torque(canvas, at, load.torque, (radius, 0.45), ink);

@@ -443,6 +443,21 @@ pub static KEYS: &[Key] = &[
                 key("proved", Number, "the frame stands if only this block is off by up to this").unit("m"),
             ]),
         ]),
+        key("cases", Objects, "load cases; all other results of the frame are those of the worst case").when("if the scene has load cases").of(&[
+            key("id", Text, "name of the case"),
+            key("verdict", Word(&["stable", "undecided", "unstable"]), "verdict in this case"),
+            key("load_factor", Margin, "largest factor on the loads in this case").when(IF_MARGIN_REQUESTED),
+            key("tilt", Object, "largest turns of gravity in this case").when(IF_MARGIN_REQUESTED).of(&[
+                key("left", Margin, "to the left (clockwise)").unit("°"),
+                key("right", Margin, "to the right (anticlockwise)").unit("°"),
+            ]),
+        ]),
+        key("governing_case", Text, "the worst case: that with the worst verdict, then that with the least load factor, then that with the least tilt").when("if the scene has load cases"),
+        key("envelope", Objects, "the least and the greatest forces at each interface in the listed balances of all cases").when("if the scene has load cases").of(&[
+            key("interface", Count, "index in `interfaces`, from 0"),
+            key("normal", Pair, "least and greatest sum of the normal forces").unit("N"),
+            key("friction", Pair, "least and greatest friction force").unit("N"),
+        ]),
         key("only_by_wedging", FlagOrOpen, "whether the frame stands only because blocks press on each other although no load presses them together; null if this could not be decided, and `effects` then gives the reason").when("with `--wedging`, if the frame stands"),
         key("wedging", Object, "proof that the frame stands only by wedging").when("with `--wedging`, if `only_by_wedging` is `true`").of(&[
             key("must_press", Objects, "interfaces that open or slide if the springs give way; in every balance, their normal forces sum to at least `normal_force_at_least`, if a bound was found").of(&[

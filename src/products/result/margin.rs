@@ -142,9 +142,9 @@ struct IntervalMechanisms<'a> {
 }
 
 #[derive(Serialize)]
-struct Sides<T> {
-    left: T,
-    right: T,
+pub(super) struct Sides<T> {
+    pub(super) left: T,
+    pub(super) right: T,
 }
 
 #[derive(Serialize)]
@@ -156,7 +156,7 @@ struct Limits<T> {
 
 #[derive(Serialize)]
 #[serde(untagged)]
-enum End {
+pub(super) enum End {
     At(Number),
     None,
     Unbounded(&'static str),
@@ -165,13 +165,13 @@ enum End {
 }
 
 impl End {
-    fn is_left_out(&self) -> bool {
+    pub(super) fn is_left_out(&self) -> bool {
         matches!(self, End::NotAsked)
     }
 }
 
 impl Sides<End> {
-    fn is_left_out(&self) -> bool {
+    pub(super) fn is_left_out(&self) -> bool {
         self.left.is_left_out()
     }
 }
@@ -271,7 +271,7 @@ fn range(interval: &Interval) -> Range {
     }
 }
 
-fn end(margin: &Margin) -> End {
+pub(super) fn end(margin: &Margin) -> End {
     match margin {
         Margin::Value { at, .. } => End::At(Number(*at)),
         Margin::None | Margin::NotApplicable | Margin::Undecided | Margin::Unconfirmed { .. } => End::None,
@@ -280,7 +280,7 @@ fn end(margin: &Margin) -> End {
     }
 }
 
-fn sides<T>(of: &Either, described: impl Fn(&Margin) -> T) -> Sides<T> {
+pub(super) fn sides<T>(of: &Either, described: impl Fn(&Margin) -> T) -> Sides<T> {
     Sides { left: described(&of.left), right: described(&of.right) }
 }
 

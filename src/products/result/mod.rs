@@ -12,6 +12,7 @@
 #[cfg(feature = "report")]
 mod accuracy;
 mod capacity;
+mod cases;
 mod force;
 #[cfg(feature = "import")]
 mod import;
@@ -30,6 +31,7 @@ use serde::{Serialize, Serializer};
 pub use accuracy::accuracy_json;
 use capacity::Capacity;
 pub use capacity::capacity_json;
+use cases::{Case, Envelope};
 use force::{Interface, Missing, Motion, Robot};
 #[cfg(feature = "import")]
 pub use import::import_json;
@@ -191,6 +193,12 @@ struct Frame<'a> {
     sensitivity: Option<Sensitivity<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     placement: Option<Placement<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    cases: Vec<Case<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    governing_case: Option<&'a str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    envelope: Vec<Envelope>,
     #[serde(skip_serializing_if = "Option::is_none")]
     capacity: Option<Capacity<'a>>,
     /// `Some(None)`, written as `null`, if it was requested but could not be decided.
@@ -246,7 +254,9 @@ impl<'a> Result<'a> {
             scene: &scene.title,
             contact_tolerance: Tolerance::new(scene),
             notes: analysis.notes.iter().map(NoteEntry::new).collect(),
-            frames: frames.map(|(step, frame)| Frame::new(scene, &step.title, frame, timing)).collect(),
+            frames: (frames.enumerate())
+                .map(|(number, (step, frame))| Frame::new(analysis.scene_of(number), &step.title, frame, timing))
+                .collect(),
         }
     }
 
@@ -285,6 +295,7 @@ impl Tolerance {
 impl<'a> Frame<'a> {
     fn new(scene: &'a Scene, title: &'a str, frame: &'a FrameAnalysis, timing: Timing) -> Frame<'a> {
         let block = |id: BlockId| scene.blocks[id.0].id.as_str();
+        let cases = frame.cases.as_ref();
         Frame {
             title,
             verdict: word(frame.verdict),
@@ -304,6 +315,9 @@ impl<'a> Frame<'a> {
             margins: frame.margins.as_ref().map(|m| Margins::new(scene, m)),
             sensitivity: (frame.sensitivity.as_ref()).map(|s| Sensitivity::new(scene, frame, s)),
             placement: frame.placement.as_ref().map(|p| Placement::new(scene, p)),
+            cases: cases.iter().flat_map(|cases| &cases.each).map(Case::new).collect(),
+            governing_case: cases.map(|cases| cases.each[cases.governing].id.as_str()),
+            envelope: cases.iter().flat_map(|cases| cases.envelope.iter().enumerate()).map(Envelope::new).collect(),
             capacity: frame.capacity.as_ref().map(|c| Capacity::new(scene, c)),
             only_by_wedging: is_simulated(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
             wedging: (frame.wedged.as_ref()).map(|w| Wedging::new(scene, frame, w)),

@@ -49,6 +49,7 @@ fn scene() -> Scene {
         blocks: vec![block("a"), block("b")],
         robots: vec![Arm { id: "r0".into(), limits: Limits::default(), holds: None }],
         loads: vec![],
+        cases: vec![],
         materials: vec![],
         friction_pairs: vec![],
         contacts: Vec::new(),
@@ -108,6 +109,7 @@ fn frame() -> FrameAnalysis {
         capacity: None,
         only_by_wedging: None,
         exact: None,
+        cases: None,
         wedged: None,
         effects: vec![EffectReport { effect: EffectName::Friction, simulated: true, why: "two".into(), unknowns: 8 }],
         proof: Proof::Mechanism { power: 0.25, worst_violation: 1e-12 },
@@ -170,7 +172,7 @@ const LINES: &str = r#"{
 #[test]
 fn the_names_and_the_order_of_the_keys_do_not_change() {
     let scene = scene();
-    let analysis = Analysis { scene: scene.into(), frames: vec![frame()], notes: vec![] };
+    let analysis = Analysis { scene: scene.into(), frames: vec![frame()], notes: vec![], case_scenes: vec![] };
     let expected = LINES.replace("VERSION", env!("CARGO_PKG_VERSION"));
     assert_eq!(to_json(&analysis, Timing::LeftOut, Layout::Lines), expected);
     let line = to_json(&analysis, Timing::Included, Layout::OneLine);
@@ -189,8 +191,11 @@ fn doubts_notices_and_weak_proofs_are_in_the_output() {
     frame.unsupported = vec![BlockId(1)];
     frame.notices = vec!["a contact of 1e-9 m is left out".into()];
     frame.proof = Proof::Forces { worst_imbalance: 1e-3, worst_share: 0.5, worst_pull: 0.0, worst_slip: -0.0 };
-    let json =
-        to_json(&Analysis { scene: scene.into(), frames: vec![frame], notes: vec![] }, Timing::LeftOut, Layout::Lines);
+    let json = to_json(
+        &Analysis { scene: scene.into(), frames: vec![frame], notes: vec![], case_scenes: vec![] },
+        Timing::LeftOut,
+        Layout::Lines,
+    );
     assert!(json.contains(r#""doubt": "the time limit was reached before it was decided""#), "{json}");
     assert!(json.contains(r#""unsupported": ["b"]"#), "{json}");
     assert!(json.contains(r#""total_force_least": false"#), "{json}");

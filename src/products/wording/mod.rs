@@ -6,6 +6,7 @@
 //! [`text`](crate::text).
 
 pub mod capacity;
+pub mod case;
 pub mod failure;
 #[cfg(feature = "report")]
 pub mod headline;

@@ -113,7 +113,10 @@ fn optional_keys_may_be_left_out_and_unknown_keys_are_errors() {
         Claim(
             "or all known keys if none is similar",
             file(json!({ "zzzzzz": 1 })),
-            Refused("unknown_key", "known keys are author, blocks, contact_tolerance, contacts, corner_contacts"),
+            Refused(
+                "unknown_key",
+                "known keys are author, blocks, cases, contact_tolerance, contacts, corner_contacts",
+            ),
         ),
         Claim(
             "All keys may be left out, except those that the tables below mark as *required*",

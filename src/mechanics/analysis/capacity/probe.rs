@@ -111,7 +111,8 @@ impl Probe {
     pub fn without_loads(&self) -> Probe {
         let mut given = self.given.clone();
         for body in &mut given.bodies {
-            (body.weight, body.listed, body.load) = (0.0, LoadVector::ZERO, LoadVector::ZERO);
+            (body.weight, body.load) = (0.0, LoadVector::ZERO);
+            (body.listed, body.fixed) = (LoadVector::ZERO, LoadVector::ZERO);
         }
         let or_none = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
         for grip in &mut given.grips {
@@ -312,10 +313,9 @@ impl Probe {
         } else {
             self.given.clone()
         };
-        let factor = assembly.load_factor;
         let body = &mut assembly.bodies[self.body];
         let more = load_about(body.centroid, self.at, force, 0.0);
-        body.listed = body.listed.plus(more.times(1.0 / factor));
+        body.fixed = body.fixed.plus(more);
         body.load = body.load.plus(more);
         assembly
     }

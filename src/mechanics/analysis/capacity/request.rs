@@ -1,7 +1,7 @@
 //! [`CapacityRequest`]: the block, the point and the ranges of uncertain quantities for which a capacity is computed.
 
 use crate::geometry::{Point, Vector};
-use crate::mechanics::scene::{BlockId, Frame, Hold, Scene};
+use crate::mechanics::scene::{BlockId, Frame, Hold, Load, Scene};
 
 /// The block, the point and the ranges of uncertain quantities for which a [`LoadCapacity`](super::LoadCapacity) is
 /// computed.
@@ -214,7 +214,16 @@ impl Scene {
     /// Returns a copy of the scene with one more load: a force, N, at a point of a block.
     pub(in crate::mechanics::analysis) fn with_force(&self, block: BlockId, at: Point, force: Vector) -> Scene {
         let mut scene = self.clone();
-        scene.loads.push(crate::mechanics::scene::Load { block, at, force, torque: 0.0, at_centroid: false });
+        scene.loads.push(Load {
+            block,
+            at,
+            force,
+            torque: 0.0,
+            is_fixed: false,
+            entry: usize::MAX,
+            spread: None,
+            at_centroid: false,
+        });
         scene
     }
 }

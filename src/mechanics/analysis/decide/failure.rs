@@ -93,16 +93,11 @@ impl Component<'_> {
     pub(super) fn with_adhesion(&self, adhesion: &Amounts) -> Assembly {
         let unit = self.scale.force;
         let mut held = self.assembly.clone();
-        // The load factor must not multiply the adhesion. So multiply the listed loads by the factor now, and set the
-        // factor to 1.
-        for body in &mut held.bodies {
-            body.listed = body.listed.times(self.assembly.load_factor);
-        }
-        held.load_factor = 1.0;
         // Each adhesive force acts on one body as a load. The opposite force acts on the other body.
         let mut act = |body: usize, at: Point, force: Vector, torque: f64| {
             let body = &mut held.bodies[body];
-            body.listed = body.listed.plus(load_about(body.centroid, at, force, torque));
+            // The load factor must not multiply the adhesion.
+            body.fixed = body.fixed.plus(load_about(body.centroid, at, force, torque));
         };
         for (k, contact) in self.assembly.contacts.iter().enumerate() {
             let pulls = contact.points.into_iter().zip(adhesion.normal[k]);

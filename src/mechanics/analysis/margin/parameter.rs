@@ -26,7 +26,8 @@ pub(super) fn intervals(trial: &mut Trial, stands: bool, kinds: MarginKinds, wit
         tilt,
         horizontal_load,
         kernel: kinds.has(MarginKind::Kernel).then(|| kernel(trial)),
-        load_factor: (kinds.has(MarginKind::LoadFactor) && trial.is_loaded()).then(|| load_factor(trial, stands)),
+        load_factor: (kinds.has(MarginKind::LoadFactor) && trial.has_factored_loads())
+            .then(|| load_factor(trial, stands)),
         robots,
     }
 }
@@ -55,6 +56,7 @@ fn horizontal_load(trial: &mut Trial, stands: bool) -> Interval {
         along: 0.0,
         across: side,
         loads: 0.0,
+        has_fixed_loads: false,
         limits: LimitChange::FiniteToZero,
         ..Setting::default()
     };
@@ -71,7 +73,12 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
         typical_large: trial.weights_to_loads().max(1.0),
         load_ratio: trial.weights_to_loads(),
     };
-    let alone =
-        |side: f64| Setting { along: 0.0, loads: side, limits: LimitChange::FiniteToZero, ..Setting::default() };
+    let alone = |side: f64| Setting {
+        along: 0.0,
+        loads: side,
+        has_fixed_loads: false,
+        limits: LimitChange::FiniteToZero,
+        ..Setting::default()
+    };
     linear(trial, &line, 1.0, stands, &alone)
 }

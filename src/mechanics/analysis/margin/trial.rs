@@ -15,7 +15,7 @@ use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::{ContactForces, Forces, GripForces, Motion, net_power};
 use crate::mechanics::scene::{Limits, RobotId};
 use crate::mechanics::solve::{ExtremeValue, Tangent};
-use crate::mechanics::statics::assembly::{Assembly, LoadVector};
+use crate::mechanics::statics::assembly::{Assembly, AssemblyBody, LoadVector};
 
 /// The number of evaluations of changed components in this process: verdicts and programs of least residual.
 static TRIALS: AtomicUsize = AtomicUsize::new(0);
@@ -39,6 +39,8 @@ pub(super) struct Setting {
     pub across: f64,
     /// Factor on the listed loads.
     pub loads: f64,
+    /// Whether the fixed loads act.
+    pub has_fixed_loads: bool,
     /// The robots' limits.
     pub limits: LimitChange,
 }
@@ -64,7 +66,15 @@ pub(super) enum LimitChange {
 
 impl Default for Setting {
     fn default() -> Setting {
-        Setting { friction: None, kernel: None, along: 1.0, across: 0.0, loads: 1.0, limits: LimitChange::None }
+        Setting {
+            friction: None,
+            kernel: None,
+            along: 1.0,
+            across: 0.0,
+            loads: 1.0,
+            has_fixed_loads: true,
+            limits: LimitChange::None,
+        }
     }
 }
 
@@ -99,17 +109,23 @@ impl<'a> Trial<'a> {
         is_loaded(self.original)
     }
 
+    /// True if the load factor multiplies some load of the component.
+    pub fn has_factored_loads(&self) -> bool {
+        self.original.bodies.iter().any(|body| body.listed != LoadVector::ZERO)
+    }
+
     /// True if some robot has a limit other than 0 and infinity. The forces at the limit of stability are then not
     /// proportional to the loads.
     pub fn is_limited(&self) -> bool {
         is_limited(self.original)
     }
 
-    /// Returns the ratio of the heaviest weight to the largest listed load; 1 if there are no weights or no listed
+    /// Returns the ratio of the heaviest weight or fixed load to the largest listed load; 1 if there are no weights or no listed
     /// loads.
     pub fn weights_to_loads(&self) -> f64 {
         let bodies = || self.original.bodies.iter();
-        let weights = bodies().map(|body| body.weight * self.original.pull.norm());
+        let size = |body: &AssemblyBody| body.fixed.size(self.original.length);
+        let weights = bodies().map(|body| size(body).max(body.weight * self.original.pull.norm()));
         let loads = bodies().map(|body| body.listed.size(self.original.length));
         let ratio = weights.fold(0.0, f64::max) / loads.fold(0.0, f64::max);
         if ratio.is_finite() && ratio > 0.0 { ratio } else { 1.0 }
@@ -261,6 +277,9 @@ impl<'a> Trial<'a> {
         }
         // Weights along and across the original gravity together equal weights along a changed gravity vector.
         let down = self.original.pull;
+        if !setting.has_fixed_loads {
+            changed.bodies.iter_mut().for_each(|body| body.fixed = LoadVector::ZERO);
+        }
         changed = changed
             .with_gravity(down * setting.along + quarter_turn(down) * setting.across)
             .with_load_factor(setting.loads);
@@ -275,7 +294,7 @@ impl<'a> Trial<'a> {
 /// True if the scene lists a load on some body of a component.
 pub(super) fn is_loaded(component: &Assembly) -> bool {
     let mut bodies = component.bodies.iter();
-    bodies.any(|body| body.listed != LoadVector::ZERO)
+    bodies.any(|body| body.listed != LoadVector::ZERO || body.fixed != LoadVector::ZERO)
 }
 
 /// True if a robot that holds a body of the component has a limit other than 0 and infinity.

@@ -55,7 +55,7 @@ impl Errors<'_> {
             contact.points = [contact.points[0] + along, contact.points[1] - along];
         }
         for (body, own) in moved.bodies.iter_mut().enumerate() {
-            own.listed.moment += signs[body] * self.moments[body] * self.scales[body] * error / moved.load_factor;
+            own.fixed.moment += signs[body] * self.moments[body] * self.scales[body] * error;
         }
         moved.with_summed_loads()
     }

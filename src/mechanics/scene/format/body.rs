@@ -1,9 +1,9 @@
-//! The types of the scene file for bodies, for the robots and loads that act on them, and for listed contacts.
+//! The types of the scene file for bodies, for the robots that hold them, and for listed contacts.
 
 #[cfg(feature = "schema")]
 use super::FILL_PATTERN;
 use super::declare::entry;
-use super::{CellEntry, Pair, two_names, vector};
+use super::{CellEntry, Pair, two_names};
 
 entry! {
     /// A part of the ground; one of `polygon`, `cells` and `shape` gives its outline.
@@ -147,26 +147,5 @@ impl ContactEntry {
     /// name `ground` stands for the ground.
     pub fn between(first: impl Into<String>, second: impl Into<String>, at: Pair, normal: f64) -> ContactEntry {
         ContactEntry { bodies: [first.into(), second.into()], at, normal, friction: None }
-    }
-}
-
-entry! {
-    /// A load on a block, in addition to its weight.
-    pub struct LoadEntry {
-        /// Name of the loaded block.
-        block: required String,
-        /// Force [x, y] in the force unit of the scene. Default [0, 0].
-        force: Option<Pair> [extend("default" = [0.0, 0.0])] as vector,
-        /// Point [x, y], in the length unit of the scene, at which the force acts. Default: the block's centroid.
-        at: Option<Pair>,
-        /// Torque in the force unit times the length unit of the scene, anticlockwise positive. Default 0.
-        torque: Option<f64> [extend("default" = 0.0)],
-    }
-}
-
-impl LoadEntry {
-    /// Creates a load on the block with this id. Its force and torque are zero until they are set.
-    pub fn on(block: impl Into<String>) -> LoadEntry {
-        LoadEntry { block: block.into(), ..LoadEntry::default() }
     }
 }

@@ -1,8 +1,9 @@
 //! Messages about names, numbers, keys and steps of a scene, and the messages of notes, which point out input that is
 //! allowed but probably not intended.
 
-use super::{Code, Wording, digits, new_wording, pair};
-use crate::mechanics::scene::format::UnitsEntry;
+use super::{Code, Wording, digits, new_wording, pair, point};
+use crate::geometry::Point;
+use crate::mechanics::scene::format::{Side, UnitsEntry};
 use crate::text::{nearest, shortened};
 
 pub(in crate::mechanics::scene) fn unknown_name(sort: &str, name: &str, known: &[&str]) -> Wording {
@@ -169,6 +170,78 @@ pub(in crate::mechanics::scene) fn too_many_corners(corners: usize, most: usize)
         Code::TooManyCorners,
         format!("the shapes of all bodies have {corners} corners in total, and at most {most} are allowed"),
         "use shapes with fewer corners, or split the scene into several scenes",
+    )
+}
+
+pub(in crate::mechanics::scene) fn load_without_block() -> Wording {
+    new_wording(Code::MissingKey, "the key `block` is missing", "give the name of the loaded block")
+}
+
+pub(in crate::mechanics::scene) fn no_pressure() -> Wording {
+    new_wording(
+        Code::MissingKey,
+        "the key `pressure` is missing",
+        "`side` and `between` say where a `pressure` acts; a `force` acts at a point, which `at` gives",
+    )
+}
+
+pub(in crate::mechanics::scene) fn pressure_without_place(points: usize) -> Wording {
+    let found = match points {
+        0 => "the pressure has no place".to_owned(),
+        points => format!("the list `between` needs 2 points, and its length is {points}"),
+    };
+    new_wording(
+        Code::MissingKey,
+        found,
+        "give `block` and `side`, such as \"left\", or `between`, with two points [x, y] of the free outline",
+    )
+}
+
+pub(in crate::mechanics::scene) fn friction_angle(degrees: f64) -> Wording {
+    new_wording(
+        Code::OutOfRange,
+        format!("the angle of friction is {} degrees", digits(degrees)),
+        "give an angle from -90 to 90 degrees; a positive angle drags the blocks down",
+    )
+}
+
+pub(in crate::mechanics::scene) fn no_such_side(block: &str, side: Side) -> Wording {
+    let word = match side {
+        Side::Left => "left",
+        Side::Right => "right",
+        Side::Top => "top",
+        Side::Bottom => "bottom",
+    };
+    new_wording(
+        Code::NoEdge,
+        format!("block `{}` has no side `{word}`: no outward normal is within 45° of this direction", shortened(block)),
+        "give another side, or two points of the outline as `between`",
+    )
+}
+
+pub(in crate::mechanics::scene) fn not_on_free_edges(outside: Option<(usize, Option<Point>)>) -> Wording {
+    let (message, help) = match outside {
+        Some((number, nearest)) => {
+            let which = if number == 0 { "first" } else { "second" };
+            let near = nearest.map_or(String::new(), |at| format!("; the nearest such point is {}", point(at)));
+            (
+                format!("the {which} point of `between` does not lie on an edge of a block that touches no other body"),
+                format!("give a point of the free outline of the blocks{near}"),
+            )
+        }
+        None => (
+            "no free outline connects the two points of `between`: other bodies interrupt it".to_owned(),
+            "give two points of one free outline, or one pressure for each part of it".to_owned(),
+        ),
+    };
+    new_wording(Code::NoEdge, message, help)
+}
+
+pub(in crate::mechanics::scene) fn too_many_pressed(most: usize) -> Wording {
+    new_wording(
+        Code::TooManyCorners,
+        format!("the pressures act on more than {most} edges in total"),
+        "use fewer pressures, or outlines with fewer corners",
     )
 }
 

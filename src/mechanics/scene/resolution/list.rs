@@ -1,17 +1,17 @@
-//! Resolves the lists of a file besides its bodies: materials, friction pairs, shapes, robots and loads. Also checks the
+//! Resolves the lists of a file besides its bodies: materials, friction pairs, shapes and robots. Also checks the
 //! ids of blocks and robots.
 
 use std::collections::BTreeMap;
 
 use super::body::colour;
 use super::{MaterialValues, Resolution};
-use crate::geometry::{LatticeKind, Point, Vector};
+use crate::geometry::{LatticeKind, Point};
 use crate::mechanics::scene::finding::Findings;
 use crate::mechanics::scene::format::{LimitsEntry, SceneFile};
 use crate::mechanics::scene::name::Names;
-use crate::mechanics::scene::number::{at_least_zero, is_amount, is_sane};
+use crate::mechanics::scene::number::{at_least_zero, is_sane};
 use crate::mechanics::scene::outline::Outline;
-use crate::mechanics::scene::{BlockId, Grip, Limits, Load, Robot, problem, shape};
+use crate::mechanics::scene::{BlockId, Grip, Limits, Robot, problem, shape};
 use crate::read::Trail;
 
 impl Resolution<'_> {
@@ -70,13 +70,17 @@ impl Resolution<'_> {
         pairs
     }
 
-    /// Reports ids of blocks and robots that are used twice, empty or reserved.
+    /// Reports ids of blocks, robots, loads and cases that are used twice, empty or reserved.
     pub(super) fn check_ids(&self, findings: &mut Findings) {
         let top = Trail::Top;
         let given = self.file.blocks.iter().map(|b| b.id.is_some());
         ids(findings, &top.key("blocks"), "block", &self.ids, given);
         let given = self.file.robots.iter().map(|r| r.id.is_some());
         ids(findings, &top.key("robots"), "robot", &self.robot_ids, given);
+        let given = self.file.loads.iter().map(|l| l.id.is_some());
+        ids(findings, &top.key("loads"), "load", &self.load_ids, given);
+        let cases: Vec<String> = self.file.cases.iter().map(|case| case.id.clone()).collect();
+        ids(findings, &top.key("cases"), "case", &cases, cases.iter().map(|_| true));
     }
 }
 
@@ -136,34 +140,6 @@ impl Resolution<'_> {
             });
         }
         robots
-    }
-
-    pub(super) fn loads(&self, findings: &mut Findings, blocks: &Names<'_>, centroids: &[Point]) -> Vec<Load> {
-        let top = Trail::Top;
-        let list = top.key("loads");
-        let mut loads = Vec::new();
-        for (i, entry) in self.file.loads.iter().enumerate() {
-            let at = list.index(i);
-            let force = entry.force.unwrap_or([0.0, 0.0]);
-            let torque = entry.torque.unwrap_or(0.0);
-            is_amount(findings, &at.key("force"), &force);
-            is_amount(findings, &at.key("torque"), &[torque]);
-            if let Some(point) = entry.at {
-                is_sane(findings, &at.key("at"), &point);
-            }
-            let Some(block) = blocks.find(findings, &at.key("block"), &entry.block).map(BlockId) else {
-                continue;
-            };
-            let point = entry.at.map_or(centroids[block.0], |p| Point::new(p[0], p[1]));
-            loads.push(Load {
-                block,
-                force: Vector::new(force[0], force[1]),
-                at: point,
-                torque,
-                at_centroid: entry.at.is_none(),
-            });
-        }
-        loads
     }
 }
 

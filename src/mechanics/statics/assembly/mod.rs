@@ -83,12 +83,19 @@ pub struct AssemblyBody {
     pub weight: f64,
     /// The sum of the loads that the scene lists for the block, without the load factor.
     pub listed: LoadVector,
-    /// The total load, without the forces of contacts and robots: [`Assembly::pull`] · weight + load factor · listed
-    /// loads.
+    /// The sum of the listed loads that the load factor does not multiply.
+    pub fixed: LoadVector,
+    /// The total load, without the forces of contacts and robots: [`Assembly::pull`] · weight + fixed loads + load
+    /// factor · listed loads.
     pub load: LoadVector,
 }
 
 impl AssemblyBody {
+    /// Returns the sum of all loads that the scene lists for the block, with the load factor.
+    pub fn given(&self, load_factor: f64) -> LoadVector {
+        self.fixed.plus(self.listed.times(load_factor))
+    }
+
     /// Returns the largest distance of a corner from the centroid, in metres.
     pub fn radius(&self) -> f64 {
         let reach = self.corners.iter().map(|p| (p - self.centroid).norm());
@@ -165,6 +172,7 @@ impl Assembly {
                 corners: given.body.polygon.outline().into(),
                 weight: 0.0,
                 listed: LoadVector::ZERO,
+                fixed: LoadVector::ZERO,
                 load: LoadVector::ZERO,
             }
         });
@@ -192,7 +200,7 @@ impl Assembly {
     pub fn with_summed_loads(mut self) -> Assembly {
         for body in &mut self.bodies {
             let weight = LoadVector { force: self.pull * body.weight, moment: 0.0 };
-            body.load = weight.plus(body.listed.times(self.load_factor));
+            body.load = weight.plus(body.given(self.load_factor));
         }
         self
     }

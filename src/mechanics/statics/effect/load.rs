@@ -21,7 +21,9 @@ impl Effect for Loads {
         for block in &context.frame.placed {
             placed[block.0] = true;
         }
-        match scene.loads.iter().filter(|l| placed[l.block.0]).count() {
+        let mut acting: Vec<usize> = scene.loads.iter().filter(|l| placed[l.block.0]).map(|l| l.entry).collect();
+        acting.dedup();
+        match acting.len() {
             0 => Applicability::skipped("no listed load acts on a placed block"),
             1 => Applicability::Applies("1 load acts on a placed block".to_owned()),
             n => Applicability::Applies(format!("{} act on placed blocks", counted(n, "load"))),
@@ -34,7 +36,8 @@ impl Effect for Loads {
             if let Some(number) = body_of_block[load.block.0] {
                 let body = &mut assembly.bodies[number];
                 let more = load_about(body.centroid, load.at, load.force, load.torque);
-                body.listed = body.listed.plus(more);
+                let sum = if load.is_fixed { &mut body.fixed } else { &mut body.listed };
+                *sum = sum.plus(more);
             }
         }
     }

@@ -54,7 +54,7 @@ impl Force {
 /// forces, weight and loads. The last row is their sum. Moments are about the origin. `number` is the index of the
 /// frame.
 pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
-    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
+    let (scene, frame_analysis) = (analysis.scene_of(number), &analysis.frames[number]);
     let about = Point::origin();
     let supported: Vec<BlockId> = scene.frames[number]
         .placed
@@ -80,7 +80,7 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
 /// Makes a table of the forces on one block. The last row is their sum. Moments are about the centroid of the block.
 /// `number` is the index of the frame.
 pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Grid {
-    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
+    let (scene, frame_analysis) = (analysis.scene_of(number), &analysis.frames[number]);
     let own = &scene.blocks[block.0];
     let about = own.centroid;
     let all = scene.applied_forces();

@@ -92,7 +92,7 @@ fn density(scene: &Scene, block: BlockId) -> Option<f64> {
 /// sum.
 pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
     let placed = &scene.frames[number].placed;
-    let loads: Vec<_> = scene.loads.iter().filter(|l| placed.contains(&l.block)).collect();
+    let loads = scene.loads_on(placed);
     let newtons = units.newtons(loads.iter().map(|l| l.force.norm()));
     let torques = units.torques(loads.iter().map(|l| l.torque));
     let metres = units.lengths(loads.iter().flat_map(|l| [l.at.x, l.at.y]));

@@ -220,7 +220,7 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
 /// Returns the most important margin of a frame as a sentence without a full stop; empty if no margin was computed.
 pub(super) fn headline_words(scene: &Scene, number: usize, frame_analysis: &FrameAnalysis) -> String {
     let placed = &scene.frames[number].placed;
-    let loads = scene.loads.iter().filter(|l| placed.contains(&l.block)).count();
+    let loads = scene.loads_on(placed).len();
     let margins = stated(scene, frame_analysis);
     let first = margins.first();
     let Some(first) = first else {

@@ -23,7 +23,9 @@ pub(super) fn lack(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<Stri
 /// Describes which fraction of its loads a falling frame carries, or how many times its loads it would need to stand.
 /// Returns `None` if neither is known.
 fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
-    let loads = match scene.loads.len() {
+    let mut entries: Vec<usize> = scene.loads.iter().map(|load| load.entry).collect();
+    entries.dedup();
+    let loads = match entries.len() {
         1 => "load",
         _ => "loads",
     };

@@ -6,6 +6,7 @@ use super::list::{friction, stated};
 use super::{Parameter, StatedMargin, confirmed};
 use crate::mechanics::analysis::{End, FrameAnalysis, Motion, Verdict};
 use crate::mechanics::scene::Scene;
+use crate::products::wording::case;
 use crate::products::wording::number::{three_down, three_up};
 
 /// The needed friction is stated if it is at least this fraction of the present friction.
@@ -26,8 +27,8 @@ pub struct Governing<'a> {
 /// empty if no margins were computed, or if the frame is undecided.
 pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> Governing<'a> {
     let placed = &scene.frames[number].placed;
-    let loads = scene.loads.iter().filter(|load| placed.contains(&load.block)).count();
-    match found.verdict {
+    let loads = scene.loads_on(placed).len();
+    let mut governing = match found.verdict {
         Verdict::Undecided => Governing::default(),
         Verdict::Unstable => Governing {
             words: lack(scene, found).into_iter().collect(),
@@ -35,7 +36,9 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
             ..Governing::default()
         },
         Verdict::Stable => reserves(scene, found, if loads == 1 { "load" } else { "loads" }),
-    }
+    };
+    governing.words.extend(case::worst(found));
+    governing
 }
 
 fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governing<'a> {

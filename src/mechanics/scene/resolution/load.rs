@@ -1,0 +1,258 @@
+//! Resolves loads and load cases. The pressure of one entry becomes one load for each edge of a block on which it acts.
+
+use super::Resolution;
+use super::free_edges::{FreeEdges, Stretch};
+use crate::geometry::{Point, Vector, cross, quarter_turn, sin_cos_degrees};
+use crate::mechanics::scene::finding::Findings;
+use crate::mechanics::scene::format::{DepthEntry, LoadEntry, PressureEntry, Side};
+use crate::mechanics::scene::name::Names;
+use crate::mechanics::scene::number::{at_least_zero, is_amount, is_sane};
+use crate::mechanics::scene::{Block, BlockId, Case, Ground, Load, Spread, problem};
+use crate::read::Trail;
+
+/// The largest number of edges on which the pressures of a scene may act.
+const MAX_PRESSED_EDGES: usize = 100_000;
+
+/// An outward normal belongs to a side if it is at most 45° from the direction of the side. Normals at exactly 45° are
+/// rounded.
+const MIN_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2 - 1e-9;
+
+impl Resolution<'_> {
+    /// Returns the loads of the file, in its order, in the units of the file.
+    pub(super) fn loads(
+        &self,
+        findings: &mut Findings,
+        names: &Names<'_>,
+        ground: &[Option<Ground>],
+        blocks: &[Option<Block>],
+    ) -> Vec<Load> {
+        let top = Trail::Top;
+        let list = top.key("loads");
+        let mut loads = Vec::new();
+        let mut free = None;
+        for (number, entry) in self.file.loads.iter().enumerate() {
+            let at = list.index(number);
+            let named = entry.block.as_ref().map(|block| names.find(findings, &at.key("block"), block).map(BlockId));
+            let is_fixed = entry.fixed.unwrap_or(false);
+            if let Some(pressure) = &entry.pressure {
+                if !is_one_pressure(findings, &at, entry) {
+                    continue;
+                }
+                let Some(pressure) = self.pressure(findings, &at.key("pressure"), pressure) else { continue };
+                let stretches = match (entry.side, &entry.between[..]) {
+                    (Some(side), _) => {
+                        let Some(Some(block)) = named else { continue };
+                        let Some(given) = blocks[block.0].as_ref() else { continue };
+                        let found = side_of(given, block, side);
+                        if found.is_empty() {
+                            findings.add(&at.key("side"), problem::message::no_such_side(&self.ids[block.0], side));
+                        }
+                        found
+                    }
+                    (None, [from, to]) => {
+                        if ![from, to].iter().all(|point| is_sane(findings, &at.key("between"), &point[..])) {
+                            continue;
+                        }
+                        let ends = [from, to].map(|point| Point::new(point[0], point[1]));
+                        let free = free.get_or_insert_with(|| FreeEdges::new(ground, blocks));
+                        match free.between(ends) {
+                            Ok(found) => found,
+                            Err(apart) => {
+                                findings.add(&at.key("between"), problem::message::not_on_free_edges(apart));
+                                continue;
+                            }
+                        }
+                    }
+                    _ => continue,
+                };
+                if loads.len() + stretches.len() > MAX_PRESSED_EDGES {
+                    findings.add(&at, problem::message::too_many_pressed(MAX_PRESSED_EDGES));
+                    return loads;
+                }
+                loads.extend(stretches.iter().filter_map(|stretch| pressure.on(stretch, number, is_fixed)));
+                continue;
+            }
+            if entry.side.is_some() || !entry.between.is_empty() {
+                findings.add(&at, problem::message::no_pressure());
+                continue;
+            }
+            let (force, torque) = (entry.force.unwrap_or([0.0, 0.0]), entry.torque.unwrap_or(0.0));
+            is_amount(findings, &at.key("force"), &force);
+            is_amount(findings, &at.key("torque"), &[torque]);
+            if let Some(point) = entry.at {
+                is_sane(findings, &at.key("at"), &point);
+            }
+            if named.is_none() {
+                findings.add(&at, problem::message::load_without_block());
+            }
+            let Some(Some(block)) = named else { continue };
+            let centroid = blocks[block.0].as_ref().map_or(Point::origin(), |block| block.centroid);
+            loads.push(Load {
+                block,
+                force: Vector::new(force[0], force[1]),
+                at: entry.at.map_or(centroid, |p| Point::new(p[0], p[1])),
+                torque,
+                is_fixed,
+                entry: number,
+                spread: None,
+                at_centroid: entry.at.is_none(),
+            });
+        }
+        loads
+    }
+
+    /// Returns the load cases of the file.
+    pub(super) fn cases(&self, findings: &mut Findings) -> Vec<Case> {
+        let top = Trail::Top;
+        let list = top.key("cases");
+        let hidden = findings.unread.hides_names("loads", self.load_ids.len());
+        let names = Names::new("load", self.load_ids.iter().map(String::as_str).collect(), hidden);
+        let mut cases = Vec::new();
+        for (number, entry) in self.file.cases.iter().enumerate() {
+            let at = list.index(number);
+            let weights = at_least_zero(findings, &at, "weights", entry.weights).unwrap_or(1.0);
+            let mut loads = vec![if entry.loads.is_some() { 0.0 } else { 1.0 }; self.load_ids.len()];
+            for (name, factor) in entry.loads.iter().flat_map(|map| &map.0) {
+                let at = at.key("loads");
+                let at = at.key(name);
+                is_amount(findings, &at, &[*factor]);
+                if let Some(load) = names.find(findings, &at, name) {
+                    loads[load] = *factor;
+                }
+            }
+            cases.push(Case { id: entry.id.clone(), weights, loads });
+        }
+        cases
+    }
+
+    /// Checks the numbers of a pressure, and returns it in the units of the file. `None` if a number is not valid.
+    fn pressure<'p>(&self, findings: &mut Findings, at: &Trail<'_>, entry: &'p PressureEntry) -> Option<Pressure<'p>> {
+        let is_valid = match entry {
+            PressureEntry::Uniform(pressure) => is_amount(findings, at, &[*pressure]),
+            PressureEntry::Linear(ends) => is_amount(findings, at, ends),
+            PressureEntry::ByDepth(depth) => {
+                let angle = depth.friction_angle.unwrap_or(0.0);
+                let is_steep = !(-90.0..=90.0).contains(&angle);
+                if is_steep {
+                    findings.add(&at.key("friction_angle"), problem::message::friction_angle(angle));
+                }
+                let is_known = is_sane(findings, &at.key("surface"), &[depth.surface])
+                    & at_least_zero(findings, at, "unit_weight", Some(depth.unit_weight)).is_some()
+                    & at_least_zero(findings, at, "coefficient", Some(depth.coefficient.unwrap_or(1.0))).is_some();
+                is_known && !is_steep
+            }
+        };
+        // A pressure is a force per square metre. Lengths and the thickness are in the length unit of the file.
+        let metre = self.units.length().size;
+        is_valid.then_some(Pressure { entry, metre, per_length: self.thickness * metre * metre })
+    }
+}
+
+/// True if an entry with a pressure has exactly the keys that it needs. Reports the first key that is wrong.
+fn is_one_pressure(findings: &mut Findings, at: &Trail<'_>, entry: &LoadEntry) -> bool {
+    let other = [("force", entry.force.is_some()), ("at", entry.at.is_some()), ("torque", entry.torque.is_some())];
+    let wording = if let Some((key, _)) = other.into_iter().find(|(_, is_given)| *is_given) {
+        problem::outline::two_outlines("pressure", key)
+    } else if entry.side.is_some() && !entry.between.is_empty() {
+        problem::outline::two_outlines("side", "between")
+    } else if entry.side.is_some() && entry.block.is_none() {
+        problem::message::load_without_block()
+    } else if entry.side.is_none() && entry.between.len() != 2 {
+        problem::message::pressure_without_place(entry.between.len())
+    } else {
+        return true;
+    };
+    findings.add(at, wording);
+    false
+}
+
+/// Returns the edges of a block on one side: from its lower to its upper end, or from its left to its right end.
+fn side_of(block: &Block, id: BlockId, side: Side) -> Vec<Stretch> {
+    let (outward, along) = match side {
+        Side::Left => (Vector::new(-1.0, 0.0), Vector::new(0.0, 1.0)),
+        Side::Right => (Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)),
+        Side::Top => (Vector::new(0.0, 1.0), Vector::new(1.0, 0.0)),
+        Side::Bottom => (Vector::new(0.0, -1.0), Vector::new(1.0, 0.0)),
+    };
+    let edges: Vec<_> = block.body.polygon.edges().filter(|edge| edge.outward().dot(&outward) >= MIN_COSINE).collect();
+    let place = |point: Point| point.coords.dot(&along);
+    let ends = edges.iter().flat_map(|edge| [place(edge.from), place(edge.to)]);
+    let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+    let share = |point: Point| if high > low { (place(point) - low) / (high - low) } else { 0.0 };
+    let stretches = edges.iter();
+    stretches
+        .map(|edge| Stretch { block: id, ends: [edge.from, edge.to], shares: [share(edge.from), share(edge.to)] })
+        .collect()
+}
+
+/// A pressure, in the units of the file.
+struct Pressure<'p> {
+    entry: &'p PressureEntry,
+    /// The metres of one unit of length.
+    metre: f64,
+    /// The force per unit of length along an edge that a pressure of 1 exerts.
+    per_length: f64,
+}
+
+impl Pressure<'_> {
+    /// Returns the load that the pressure exerts on a part of an edge. `None` if it does not press there.
+    fn on(&self, stretch: &Stretch, entry: usize, is_fixed: bool) -> Option<Load> {
+        let [mut from, mut to] = stretch.ends;
+        let pressures = match self.entry {
+            PressureEntry::Uniform(pressure) => [*pressure; 2],
+            PressureEntry::Linear([first, last]) => stretch.shares.map(|share| first + (last - first) * share),
+            PressureEntry::ByDepth(depth) => {
+                [from, to] = below(depth.surface, [from, to])?;
+                let factor = depth.unit_weight * depth.coefficient.unwrap_or(1.0) * self.metre;
+                [from, to].map(|point| factor * (depth.surface - point.y).max(0.0))
+            }
+        };
+        let edge = to - from;
+        let length = edge.norm();
+        let direction = self.direction(edge / length);
+        let [first, last] = pressures.map(|pressure| pressure * self.per_length);
+        if first == 0.0 && last == 0.0 {
+            return None;
+        }
+        // The resultant of a trapezium acts at its centroid. If the pressure changes its sign along the edge, this point
+        // may lie outside the edge, so a force at the middle and a torque replace it.
+        let has_one_sign = first * last >= 0.0;
+        let share = if has_one_sign { (first + 2.0 * last) / (3.0 * (first + last)) } else { 0.5 };
+        let about_middle = (last - first) * length * length / 12.0 * cross(edge / length, direction);
+        Some(Load {
+            block: stretch.block,
+            force: direction * (0.5 * (first + last) * length),
+            at: from + edge * share,
+            torque: if has_one_sign { 0.0 } else { about_middle },
+            is_fixed,
+            entry,
+            spread: Some(Spread { ends: [from, to], force: [direction * first, direction * last] }),
+            at_centroid: false,
+        })
+    }
+
+    /// Returns the unit direction of the pressure on an edge with the unit direction `along`, whose block is on its left.
+    fn direction(&self, along: Vector) -> Vector {
+        let inward = quarter_turn(along);
+        let angle = match self.entry {
+            PressureEntry::ByDepth(DepthEntry { friction_angle: Some(angle), .. }) => *angle,
+            _ => 0.0,
+        };
+        // Earth that settles drags an edge down along its slope. A level edge is not dragged.
+        let down = if along.y > 0.0 { -along } else { along };
+        let drag = if along.y == 0.0 { 0.0 } else { angle };
+        let (sin, cos) = sin_cos_degrees(drag);
+        inward * cos + down * sin
+    }
+}
+
+/// Returns the part of an edge below the height `surface`; `None` if there is none.
+fn below(surface: f64, [from, to]: [Point; 2]) -> Option<[Point; 2]> {
+    let at_surface = || from + (to - from) * ((surface - from.y) / (to.y - from.y));
+    match (from.y < surface, to.y < surface) {
+        (true, true) => Some([from, to]),
+        (true, false) => Some([from, at_surface()]),
+        (false, true) => Some([at_surface(), to]),
+        (false, false) => None,
+    }
+}

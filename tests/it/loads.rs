@@ -1,0 +1,236 @@
+//! Pressures on the sides of blocks, loads that keep their amount, and load cases, compared with sums by hand.
+
+use drystone::analysis::{Margin, MarginKind, MarginKinds, Options, Verdict};
+use drystone::scene::format::{BlockEntry, CaseEntry, DepthEntry, LoadEntry, PressureEntry, SceneFile, Side};
+use drystone::{Analysis, Scene};
+use serde_json::{Value, json};
+
+fn scene(file: Value) -> Scene {
+    Scene::from_json(&file.to_string()).expect("a valid scene")
+}
+
+/// The largest factor on the loads with which the first frame stands.
+fn factor(scene: &Scene) -> f64 {
+    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
+    let margins = Analysis::with(scene, &options).frames[0].margins.clone().expect("requested");
+    margins.load_factor.at().expect("a limit")
+}
+
+/// A block of width `b` and height `h`, m, with the unit weight 22 kN/m³, on level ground.
+fn on_floor(b: f64, h: f64, friction: f64, loads: Value) -> Value {
+    json!({ "drystone": 1, "friction": friction, "thickness": 2.0, "silence": ["friction_high"],
+        "ground": [{ "polygon": [[-20, 0], [20, 0], [20, -1], [-20, -1]] }],
+        "blocks": [{ "id": "dam", "polygon": [[0, 0], [b, 0], [b, h], [0, h]], "weight": 22e3 * b * h * 2.0 }],
+        "loads": loads })
+}
+
+fn water(to: f64) -> Value {
+    json!({ "surface": to, "unit_weight": 9810.0 })
+}
+
+#[test]
+fn a_block_under_water_to_its_top_overturns_and_slides_where_sums_by_hand_say() {
+    let (w, water_weight) = (22e3, 9810.0);
+    let b = 1.25;
+    let h = b * f64::sqrt(3.0 * w / water_weight);
+    for side in ["left", "right"] {
+        let loads = json!([{ "block": "dam", "side": side, "pressure": water(h) }]);
+        let overturns = factor(&scene(on_floor(b, h, 9.0, loads)));
+        assert!((overturns - 1.0).abs() < 1e-6, "{overturns}");
+        let mu = 0.3;
+        let h = 2.0 * mu * b * w / water_weight;
+        let loads = json!([{ "block": "dam", "side": side, "pressure": water(h) }]);
+        let slides = factor(&scene(on_floor(b, h, mu, loads)));
+        assert!((slides - 1.0).abs() < 1e-6, "{slides}");
+    }
+}
+
+/// A wall of courses 0.5 m high with a vertical back at x = 0, and earth behind it on the right.
+fn wall(widths: &[f64], mu: f64, loads: Value) -> Value {
+    let blocks = widths.iter().enumerate().map(|(k, width)| {
+        let (y, top) = (0.5 * k as f64, 0.5 * (k + 1) as f64);
+        json!({ "id": k.to_string(), "polygon": [[-width, y], [0, y], [0, top], [-width, top]], "weight": 23e3 * 0.5 * width })
+    });
+    json!({ "drystone": 1, "friction": mu, "ground": [{ "polygon": [[-5, 0], [5, 0], [5, -1], [-5, -1]] }],
+        "blocks": blocks.collect::<Vec<_>>(), "loads": loads })
+}
+
+#[test]
+fn earth_behind_a_wall_of_courses_has_the_load_factor_of_sums_by_hand() {
+    let (k, gamma, delta, mu) = (0.3, 18e3, 20f64.to_radians(), 0.55);
+    let widths = [1.4, 1.2, 1.0, 0.8];
+    let height = 2.0;
+    let earth = json!([{ "between": [[0, 0], [0, height]],
+        "pressure": { "surface": height, "unit_weight": gamma, "coefficient": k, "friction_angle": 20.0 } }]);
+    let found = factor(&scene(wall(&widths, mu, earth)));
+    // For the part of the wall above each joint: λ H ≤ μ (W + λ V), and no moment about the front edge.
+    let mut expected = f64::INFINITY;
+    for joint in 0..widths.len() {
+        let above = &widths[joint..];
+        let h = height - 0.5 * joint as f64;
+        let thrust = 0.5 * k * gamma * h * h;
+        let (push, drag) = (thrust * f64::cos(delta), thrust * f64::sin(delta));
+        let weight: f64 = above.iter().map(|width| 23e3 * 0.5 * width).sum();
+        let front = widths[joint];
+        let resists: f64 = above.iter().map(|width| 23e3 * 0.5 * width * (front - width / 2.0)).sum();
+        // If the drag of the earth outweighs its push, the wall stands at every factor.
+        let limits = [mu * weight / (push - mu * drag), resists / (push * h / 3.0 - drag * front)];
+        expected = limits.into_iter().filter(|limit| *limit > 0.0).fold(expected, f64::min);
+    }
+    assert!((found - expected).abs() < 1e-6 * expected, "{found}, by hand {expected}");
+}
+
+#[test]
+fn a_pressure_between_two_points_follows_the_free_outline_over_ledges_and_in_both_directions() {
+    let stepped = |ends: Value| {
+        let mut file = wall(&[1.0, 1.0], 0.6, json!([{ "between": ends, "pressure": 1000.0 }]));
+        // The second course lies 0.1 m farther forward, so that a ledge is free at the back.
+        file["blocks"][1]["polygon"] = json!([[-1.1, 0.5], [-0.1, 0.5], [-0.1, 1.0], [-1.1, 1.0]]);
+        scene(file)
+    };
+    for ends in [json!([[0, 0], [-0.1, 1.0]]), json!([[-0.1, 1.0], [0, 0]])] {
+        let scene = stepped(ends);
+        let sum = scene.loads().iter().fold([0.0; 2], |[x, y], load| [x + load.force.x, y + load.force.y]);
+        assert!((sum[0] + 1000.0).abs() < 1e-9 && (sum[1] + 100.0).abs() < 1e-9, "{sum:?}");
+        assert_eq!(scene.loads().len(), 3);
+    }
+    // The front and the top are another path, of which only a part is asked for.
+    let front = stepped(json!([[-1.0, 0.25], [-1.1, 0.75]]));
+    let across: f64 = front.loads().iter().map(|load| load.force.x).sum();
+    let up: f64 = front.loads().iter().map(|load| load.force.y).sum();
+    assert!((across - 500.0).abs() < 1e-9 && (up - 100.0).abs() < 1e-9, "{across} {up}");
+}
+
+#[test]
+fn a_linear_pressure_has_its_exact_resultant_and_moment() {
+    let of = |pressure: Value| {
+        let loads = json!([{ "block": "dam", "side": "left", "pressure": pressure }]);
+        scene(on_floor(1.0, 3.0, 0.7, loads)).loads()[0]
+    };
+    // From 100 N/m² below to 400 N/m² above, on 3 m × 2 m: 1 500 N at 3 · (100 + 800) / (3 · 500) = 1.8 m.
+    let load = of(json!([100.0, 400.0]));
+    assert!((load.force.x - 1500.0).abs() < 1e-9 && (load.at.y - 1.8).abs() < 1e-12 && load.torque == 0.0);
+    // From −100 to 100 N/m²: no force, but the moment 2 · 200 · 3² / 12 N·m. The push to the right above turns the
+    // block clockwise.
+    let load = of(json!([-100.0, 100.0]));
+    assert!(load.force.norm() < 1e-12 && (load.torque + 300.0).abs() < 1e-9, "{}", load.torque);
+}
+
+#[test]
+fn lengths_in_millimetres_and_forces_in_kilonewtons_give_the_same_pressure() {
+    let metres = on_floor(1.0, 2.0, 0.7, json!([{ "block": "dam", "side": "left", "pressure": water(1.5) }]));
+    let mut millimetres = metres.clone();
+    millimetres["units"] = json!({ "length": "mm", "force": "kN" });
+    millimetres["thickness"] = json!(2000.0);
+    millimetres["ground"] = json!([{ "polygon": [[-20000, 0], [20000, 0], [20000, -1000], [-20000, -1000]] }]);
+    millimetres["blocks"] =
+        json!([{ "id": "dam", "polygon": [[0, 0], [1000, 0], [1000, 2000], [0, 2000]], "weight": 88.0 }]);
+    millimetres["loads"][0]["pressure"] = json!({ "surface": 1500.0, "unit_weight": 9.81 });
+    let [a, b] = [metres, millimetres].map(|file| scene(file).loads()[0]);
+    assert!((a.force - b.force).norm() < 1e-9 * a.force.norm() && (a.at - b.at).norm() < 1e-12);
+    assert!((a.force.x - 0.5 * 9810.0 * 1.5 * 1.5 * 2.0).abs() < 1e-9 && (a.at.y - 0.5).abs() < 1e-12);
+}
+
+#[test]
+fn a_fixed_load_keeps_its_amount_when_the_load_factor_changes() {
+    // The weight of 88 kN and a fixed push of 4 kN at 1 m; the other push of 1 kN at 2 m grows until the block topples.
+    let loads = json!([
+        { "id": "fixed", "block": "dam", "force": [4000, 0], "at": [0, 1], "fixed": true },
+        { "id": "push", "block": "dam", "force": [1000, 0], "at": [0, 2] }]);
+    let found = factor(&scene(on_floor(1.0, 2.0, 9.0, loads.clone())));
+    assert!((found - (44e3 - 4e3) / 2e3).abs() < 1e-6 * found, "{found}");
+    // If all loads are fixed, no factor exists.
+    let mut only = loads;
+    only[1]["fixed"] = json!(true);
+    let options = Options::default().margins(true);
+    let frames = Analysis::with(&scene(on_floor(1.0, 2.0, 9.0, only)), &options).frames;
+    assert_eq!(frames[0].margins.as_ref().expect("requested").load_factor, Margin::NotApplicable);
+}
+
+fn with_cases(cases: Value) -> Scene {
+    let mut file = on_floor(
+        1.0,
+        2.0,
+        0.7,
+        json!([
+        { "id": "push", "block": "dam", "force": [10e3, 0], "at": [0, 2] },
+        { "id": "snow", "block": "dam", "force": [0, -20e3], "at": [0.5, 2] }]),
+    );
+    file["cases"] = cases;
+    scene(file)
+}
+
+#[test]
+fn a_frame_has_the_results_of_its_worst_case() {
+    let cases = json!([
+        { "id": "weight alone", "loads": {} },
+        { "id": "push", "weights": 0.9, "loads": { "push": 1.5 } },
+        { "id": "all" }]);
+    let options = Options::default().margins(true);
+    let frame = Analysis::with(&with_cases(cases.clone()), &options).frames.remove(0);
+    let found = frame.cases.as_ref().expect("the scene has cases");
+    assert_eq!(frame.verdict, Verdict::Stable);
+    assert_eq!(found.each[found.governing].id, "push");
+    // 0.9 · 88 kN · 0.5 m against 1.5 · 10 kN · 2 m.
+    let at = frame.margins.as_ref().expect("requested").load_factor.at().expect("a limit");
+    assert!((at - 0.9 * 44.0 / 30.0).abs() < 1e-6, "{at}");
+    // The normal force at the ground lies between the weight with 0.9 and the weight with snow.
+    let [low, high] = found.envelope[0].normal;
+    assert!((low - 0.9 * 88e3).abs() < 1e-3 && (high - 108e3).abs() < 1e-3, "{low} {high}");
+    let [low, high] = found.envelope[0].friction;
+    assert!(low.abs() < 1e-3 && (high - 15e3).abs() < 1e-3, "{low} {high}");
+    // One case that falls lets the frame fall.
+    let mut falls = cases;
+    falls[1]["loads"]["push"] = json!(3.0);
+    let analysis = Analysis::with(&with_cases(falls.clone()), &Options::default());
+    assert_eq!(analysis.verdict(), Verdict::Unstable);
+    assert_eq!(drystone::analysis::verdicts(&with_cases(falls), &Options::default()), [Verdict::Unstable]);
+}
+
+#[test]
+fn problems_of_loads_and_cases_name_their_place() {
+    let file = json!({ "drystone": 1,
+        "ground": [{ "polygon": [[-9, 0], [9, 0], [9, -1], [-9, -1]] }],
+        "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [0, 1]] }],
+        "loads": [
+            { "block": "a", "side": "bottom", "pressure": 1.0, "force": [1, 0] },
+            { "block": "a", "pressure": 1.0 },
+            { "side": "left", "pressure": 1.0 },
+            { "between": [[0, 5], [1, 0]], "pressure": 1.0 },
+            { "block": "a", "side": "left" },
+            { "force": [1, 0] },
+            { "block": "a", "side": "left", "pressure": { "surface": 1, "unit_weight": -1, "friction_angle": 100 } }],
+        "cases": [{ "id": "c", "loads": { "wind": 1.5 } }, { "id": "c" }] });
+    let problems = Scene::from_json(&file.to_string()).expect_err("refused");
+    let paths: Vec<String> = problems.list.iter().map(|problem| problem.path.clone()).collect();
+    for path in [
+        "loads[0]",
+        "loads[1]",
+        "loads[2]",
+        "loads[3].between",
+        "loads[4]",
+        "loads[5]",
+        "loads[6].pressure.unit_weight",
+        "loads[6].pressure.friction_angle",
+        "cases[0].loads.wind",
+        "cases[1].id",
+    ] {
+        assert!(paths.iter().any(|found| found == path), "no problem at {path}: {paths:?}");
+    }
+}
+
+#[test]
+fn scenes_with_pressures_and_cases_are_built_in_code() {
+    let depth = PressureEntry::from(DepthEntry::below(1.0, 9810.0));
+    let file = SceneFile::default()
+        .ground([[-9.0, 0.0], [9.0, 0.0], [9.0, -1.0], [-9.0, -1.0]])
+        .block(BlockEntry::from([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]).id("a").weight(20e3))
+        .load(LoadEntry::on("a").id("water").side(Side::Left).pressure(depth))
+        .load(LoadEntry::between([1.0, 0.0], [1.0, 1.0], 500.0).fixed(true))
+        .case(CaseEntry::new("full").load("water", 1.2).load("2", 1.0));
+    let read = Scene::from_json(&file.to_json()).expect("the written file is valid");
+    let built = file.build().expect("valid");
+    assert_eq!(built.cases(), read.cases());
+    assert_eq!(built.cases()[0].loads, [1.2, 1.0]);
+    assert!(read.loads().iter().zip(built.loads()).all(|(a, b)| (a.force - b.force).norm() < 1e-9));
+}
