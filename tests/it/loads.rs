@@ -1,9 +1,11 @@
 //! Pressures on the sides of blocks, loads that keep their amount, and load cases, compared with sums by hand.
 
 use drystone::analysis::{Margin, MarginKind, MarginKinds, Options, Verdict};
-use drystone::scene::format::{BlockEntry, CaseEntry, DepthEntry, LoadEntry, PressureEntry, SceneFile, Side};
+use drystone::scene::format::{BlockEntry, BlockSide, CaseEntry, DepthEntry, LoadEntry, PressureEntry, SceneFile};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
+
+use crate::random::Random;
 
 fn scene(file: Value) -> Scene {
     Scene::from_json(&file.to_string()).expect("a valid scene")
@@ -225,7 +227,7 @@ fn scenes_with_pressures_and_cases_are_built_in_code() {
     let file = SceneFile::default()
         .ground([[-9.0, 0.0], [9.0, 0.0], [9.0, -1.0], [-9.0, -1.0]])
         .block(BlockEntry::from([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]).id("a").weight(20e3))
-        .load(LoadEntry::on("a").id("water").side(Side::Left).pressure(depth))
+        .load(LoadEntry::on("a").id("water").side(BlockSide::Left).pressure(depth))
         .load(LoadEntry::between([1.0, 0.0], [1.0, 1.0], 500.0).fixed(true))
         .case(CaseEntry::new("full").load("water", 1.2).load("2", 1.0));
     let read = Scene::from_json(&file.to_json()).expect("the written file is valid");
@@ -233,4 +235,144 @@ fn scenes_with_pressures_and_cases_are_built_in_code() {
     assert_eq!(built.cases(), read.cases());
     assert_eq!(built.cases()[0].loads, [1.2, 1.0]);
     assert!(read.loads().iter().zip(built.loads()).all(|(a, b)| (a.force - b.force).norm() < 1e-9));
+}
+
+/// A pressure on the free back of a stack, and its resultant on a part of the outline: [Fx, Fy, moment about the origin].
+struct Earth {
+    entry: Value,
+    pressure: Box<dyn Fn(f64, f64) -> f64>,
+    drag: f64,
+}
+
+impl Earth {
+    /// Integrates the pressure along an edge with the block on its left. `from` is the length of the path before it, as
+    /// a share of the whole path, and `share` the share of the edge.
+    fn on(&self, [a, b]: [[f64; 2]; 2], [from, share]: [f64; 2]) -> [f64; 3] {
+        let edge = [b[0] - a[0], b[1] - a[1]];
+        let length = f64::hypot(edge[0], edge[1]);
+        let (inward, down) = ([-edge[1] / length, edge[0] / length], f64::signum(-edge[1]));
+        let level = edge[1].abs() < 1e-12;
+        let drag = if level { 0.0 } else { self.drag };
+        let (sin, cos) = drag.sin_cos();
+        let along = [edge[0] / length * down, edge[1] / length * down];
+        let direction = [inward[0] * cos + along[0] * sin, inward[1] * cos + along[1] * sin];
+        let mut sum = [0.0; 3];
+        // Midpoints of many pieces: exact for a linear pressure but for the moment and the kink at the surface.
+        let count = 4000;
+        for piece in 0..count {
+            let t = (f64::from(piece) + 0.5) / f64::from(count);
+            let at = [a[0] + edge[0] * t, a[1] + edge[1] * t];
+            let force = (self.pressure)(at[1], from + share * t) * length / f64::from(count);
+            sum[0] += force * direction[0];
+            sum[1] += force * direction[1];
+            sum[2] += force * (at[0] * direction[1] - at[1] * direction[0]);
+        }
+        sum
+    }
+}
+
+fn random_earth(random: &mut Random, bottom: [f64; 2], top: [f64; 2]) -> Earth {
+    let between = json!([bottom, top]);
+    match random.below(3) {
+        0 => {
+            let p = random.between(500.0, 5000.0);
+            let entry = json!({ "between": between, "pressure": p });
+            Earth { entry, pressure: Box::new(move |_, _| p), drag: 0.0 }
+        }
+        1 => {
+            let [p, q] = [random.between(0.0, 6000.0), random.between(-1000.0, 3000.0)];
+            let entry = json!({ "between": between, "pressure": [p, q] });
+            Earth { entry, pressure: Box::new(move |_, share| p + (q - p) * share), drag: 0.0 }
+        }
+        _ => {
+            let [surface, weight] = [random.between(0.3, 1.2) * top[1], random.between(9e3, 20e3)];
+            let [k, degrees] = [random.between(0.2, 1.0), random.between(-10.0, 30.0)];
+            let depth =
+                json!({ "surface": surface, "unit_weight": weight, "coefficient": k, "friction_angle": degrees });
+            Earth {
+                entry: json!({ "between": between, "pressure": depth }),
+                pressure: Box::new(move |y, _| k * weight * (surface - y).max(0.0)),
+                drag: degrees.to_radians(),
+            }
+        }
+    }
+}
+
+/// A stack stands if at each joint the force from above lies within the friction cone and passes through the joint.
+#[test]
+fn random_walls_under_pressure_have_the_load_factors_of_sums_over_their_joints() {
+    let mut random = Random::new(49);
+    let mut compared = 0;
+    for _ in 0..300 {
+        let mu = random.between(0.2, 0.9);
+        let count = 1 + random.below(5);
+        let (mut left, mut right, mut y) = (0.0, random.between(0.6, 2.0), 0.0);
+        let mut courses = Vec::new();
+        for _ in 0..count {
+            let height = random.between(0.2, 0.6);
+            courses.push([left, right, y, y + height]);
+            y += height;
+            left += random.between(-0.1, 0.2);
+            right = (right + random.between(-0.2, 0.1)).max(left + 0.3);
+        }
+        let earth = random_earth(&mut random, [courses[0][1], 0.0], [courses[count - 1][1], y]);
+        // The back of the wall, from below to above: for each edge the course that it belongs to.
+        let mut edges = Vec::new();
+        for (k, [_, right, low, high]) in courses.iter().enumerate() {
+            edges.push((k, [[*right, *low], [*right, *high]]));
+            if let Some(next) = courses.get(k + 1) {
+                let owner = if next[1] < *right { k } else { k + 1 };
+                edges.push((owner, [[*right, *high], [next[1], *high]]));
+            }
+        }
+        let length = |[a, b]: [[f64; 2]; 2]| f64::hypot(b[0] - a[0], b[1] - a[1]);
+        let total: f64 = edges.iter().map(|(_, edge)| length(*edge)).sum();
+        let mut pushes = vec![[0.0; 3]; count];
+        let mut before = 0.0;
+        for (owner, edge) in edges {
+            let share = length(edge) / total;
+            let push = earth.on(edge, [before, share]);
+            before += share;
+            (0..3).for_each(|k| pushes[owner][k] += push[k]);
+        }
+        // The forces above each joint are a + λ b; each condition is a linear function of λ.
+        let (mut limit, mut stands) = (f64::INFINITY, true);
+        for joint in 0..count {
+            let (mut weight, mut push) = ([0.0; 3], [0.0; 3]);
+            for (k, [left, right, low, high]) in courses.iter().enumerate().skip(joint) {
+                let own = 23e3 * (right - left) * (high - low);
+                weight = [0.0, weight[1] - own, weight[2] - own * 0.5 * (left + right)];
+                (0..3).for_each(|c| push[c] += pushes[k][c]);
+            }
+            let [mut start, mut end, height, _] = courses[joint];
+            if joint > 0 {
+                (start, end) = (start.max(courses[joint - 1][0]), end.min(courses[joint - 1][1]));
+            }
+            // The normal force N, N ± friction, and the moments about both ends of the joint.
+            let conditions = |f: [f64; 3]| {
+                let moment = |x: f64| f[2] - (x * f[1] - height * f[0]);
+                [-f[1], -mu * f[1] - f[0], -mu * f[1] + f[0], -moment(start), moment(end)]
+            };
+            for (a, b) in conditions(weight).into_iter().zip(conditions(push)) {
+                stands &= a > 1.0;
+                if b < 0.0 {
+                    limit = limit.min(-a / b);
+                }
+            }
+        }
+        if !stands || !limit.is_finite() || limit > 1e3 {
+            continue;
+        }
+        let blocks = courses.iter().map(|[left, right, low, high]| {
+            json!({ "polygon": [[left, low], [right, low], [right, high], [left, high]],
+                "weight": 23e3 * (right - left) * (high - low) })
+        });
+        let file = json!({ "drystone": 1, "friction": mu, "contact_tolerance": 1e-9,
+            "ground": [{ "polygon": [[-9, 0], [9, 0], [9, -1], [-9, -1]] }],
+            "blocks": blocks.collect::<Vec<_>>(), "loads": [earth.entry] });
+        let found = factor(&scene(file.clone()));
+        assert!((found - limit).abs() < 2e-6 * limit, "{found}, by sums {limit}: {file}");
+        compared += 1;
+    }
+    assert!(compared > 150, "{compared}");
 }

@@ -152,6 +152,10 @@ impl Check {
         let options = self.what.capacity.add_to(*options, &source.scene)?;
         let mut analysis = self.what.analysed(&source.scene, &options);
         if let Some(output) = &self.certificate {
+            if !source.scene.cases().is_empty() {
+                let why = "--certificate writes no load cases; write each case as a scene of its own".to_owned();
+                return Err(CliError::CommandLine(why));
+            }
             verify::write(&mut analysis, &source.path, output)?;
         }
         let timing = if self.no_timing { Timing::LeftOut } else { Timing::Included };

@@ -24,7 +24,7 @@ use crate::read::{Expected, Node, NodeKind, Read, Reader, Trail};
 
 pub use body::{BlockEntry, ContactEntry, GroundEntry, LimitsEntry, RobotEntry};
 pub(crate) use lines::Lines;
-pub use load::{CaseEntry, DepthEntry, LoadEntry, PressureEntry, Side};
+pub use load::{BlockSide, CaseEntry, DepthEntry, LoadEntry, PressureEntry};
 pub use map::Map;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
 pub use unit::{ForceUnit, LengthUnit, UnitsEntry};

@@ -26,7 +26,7 @@ entry! {
         pressure: Option<PressureEntry>,
         /// Side of the block on which the pressure acts: all its edges whose outward normal is at most 45 degrees from
         /// this direction.
-        side: Option<Side>,
+        side: Option<BlockSide>,
         /// Two points [x, y], in the length unit of the scene, on the free outline of the blocks: the pressure acts on
         /// all edges between them that touch no other body.
         between: Vec<Pair> [length(min = 2, max = 2)],
@@ -50,7 +50,7 @@ impl LoadEntry {
 
 word! {
     /// A side of a block.
-    pub enum Side {
+    pub enum BlockSide {
         /// The edges whose outward normal points to the left.
         Left = "left",
         /// The edges whose outward normal points to the right.

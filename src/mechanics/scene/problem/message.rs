@@ -3,7 +3,7 @@
 
 use super::{Code, Wording, digits, new_wording, pair, point};
 use crate::geometry::Point;
-use crate::mechanics::scene::format::{Side, UnitsEntry};
+use crate::mechanics::scene::format::{BlockSide, UnitsEntry};
 use crate::text::{nearest, shortened};
 
 pub(in crate::mechanics::scene) fn unknown_name(sort: &str, name: &str, known: &[&str]) -> Wording {
@@ -205,12 +205,12 @@ pub(in crate::mechanics::scene) fn friction_angle(degrees: f64) -> Wording {
     )
 }
 
-pub(in crate::mechanics::scene) fn no_such_side(block: &str, side: Side) -> Wording {
+pub(in crate::mechanics::scene) fn no_such_side(block: &str, side: BlockSide) -> Wording {
     let word = match side {
-        Side::Left => "left",
-        Side::Right => "right",
-        Side::Top => "top",
-        Side::Bottom => "bottom",
+        BlockSide::Left => "left",
+        BlockSide::Right => "right",
+        BlockSide::Top => "top",
+        BlockSide::Bottom => "bottom",
     };
     new_wording(
         Code::NoEdge,

@@ -4,7 +4,7 @@ use super::Resolution;
 use super::free_edges::{FreeEdges, Stretch};
 use crate::geometry::{Point, Vector, cross, quarter_turn, sin_cos_degrees};
 use crate::mechanics::scene::finding::Findings;
-use crate::mechanics::scene::format::{DepthEntry, LoadEntry, PressureEntry, Side};
+use crate::mechanics::scene::format::{BlockSide, DepthEntry, LoadEntry, PressureEntry};
 use crate::mechanics::scene::name::Names;
 use crate::mechanics::scene::number::{at_least_zero, is_amount, is_sane};
 use crate::mechanics::scene::{Block, BlockId, Case, Ground, Load, Spread, problem};
@@ -167,12 +167,12 @@ fn is_one_pressure(findings: &mut Findings, at: &Trail<'_>, entry: &LoadEntry) -
 }
 
 /// Returns the edges of a block on one side: from its lower to its upper end, or from its left to its right end.
-fn side_of(block: &Block, id: BlockId, side: Side) -> Vec<Stretch> {
+fn side_of(block: &Block, id: BlockId, side: BlockSide) -> Vec<Stretch> {
     let (outward, along) = match side {
-        Side::Left => (Vector::new(-1.0, 0.0), Vector::new(0.0, 1.0)),
-        Side::Right => (Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)),
-        Side::Top => (Vector::new(0.0, 1.0), Vector::new(1.0, 0.0)),
-        Side::Bottom => (Vector::new(0.0, -1.0), Vector::new(1.0, 0.0)),
+        BlockSide::Left => (Vector::new(-1.0, 0.0), Vector::new(0.0, 1.0)),
+        BlockSide::Right => (Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)),
+        BlockSide::Top => (Vector::new(0.0, 1.0), Vector::new(1.0, 0.0)),
+        BlockSide::Bottom => (Vector::new(0.0, -1.0), Vector::new(1.0, 0.0)),
     };
     let edges: Vec<_> = block.body.polygon.edges().filter(|edge| edge.outward().dot(&outward) >= MIN_COSINE).collect();
     let place = |point: Point| point.coords.dot(&along);
