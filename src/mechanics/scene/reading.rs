@@ -211,7 +211,10 @@ mod tests {
                      "friction": 4, "fill": "#fff", "shape": null, "at": [5, 6], "angle": -90, "centre": [1, 2], "cells": [[7, 8]] }, {}],
         "contacts": [{ "bodies": ["a", "ground"], "at": [1, 2], "normal": 90, "friction": 0.2 }],
         "robots": [{ "id": "r", "holds": "a", "at": [1, 1], "limits": { "fx": 1, "fy": 2, "torque": 3, "force": 4 } }, {}],
-        "loads": [{ "block": "a", "force": [1, 2], "at": [3, 4], "torque": 5 }], "contact_tolerance": 1e-9,
+        "loads": [{ "block": "a", "force": [1, 2], "at": [3, 4], "torque": 5, "id": "l", "fixed": true },
+            { "block": "a", "side": "top", "pressure": [1, 2] }, { "between": [[1, 2], [3, 4]], "pressure": 2.5 },
+            { "block": "a", "side": "left", "pressure": { "surface": 1, "unit_weight": 2, "coefficient": 3, "friction_angle": 4 } }],
+        "cases": [{ "id": "c", "weights": 0.9, "loads": { "l": 1.5 } }], "contact_tolerance": 1e-9,
         "corner_contacts": true, "steps": [{ "title": "t", "release": ["r"], "remove": ["a"], "place": ["a"],
             "hold": { "r": "a", "q": { "block": "a", "at": [1, 2] } }, "plan": { "r": "a" } }, {}], "silence": ["x"] }"##;
 

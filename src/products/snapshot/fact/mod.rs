@@ -232,7 +232,8 @@ fn causes(scene: &Scene) -> Vec<Fact> {
         let limits = json!({ "fx": robot.limits.fx, "fy": robot.limits.fy, "torque": robot.limits.torque });
         fact("limits", vec![&robot.id], limits)
     }));
-    facts.extend(scene.loads.iter().map(|load| {
+    let all: Vec<BlockId> = (0..scene.blocks.len()).map(BlockId).collect();
+    facts.extend(scene.loads_on(&all).iter().map(|load| {
         let mut values = json!({ "force": pair(load.force), "at": [load.at.x, load.at.y] });
         if load.torque != 0.0 {
             values["torque"] = load.torque.into();
@@ -251,6 +252,8 @@ fn frame(scene: &Scene, placed: usize, found: &FrameAnalysis) -> Vec<Fact> {
         sums["total_sticking"] = found.total_sticking.into();
     }
     let mut facts = vec![fact("sums", Vec::new(), sums)];
+    let cases = found.cases.iter().flat_map(|cases| &cases.each);
+    facts.extend(cases.map(|case| fact("case", vec![&case.id], json!({ "stands": case.verdict == Verdict::Stable }))));
     facts.extend(found.contacts.iter().map(|contact| interface(scene, contact, is_proved)));
     if is_proved {
         facts.extend(found.robots.iter().map(|robot| {
