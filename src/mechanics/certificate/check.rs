@@ -7,7 +7,8 @@
 
 use dashu_ratio::Relaxed as Rational;
 
-use super::{BodyForm, Certificate, Change, ContactForm, FrameForm, GripForm, LimitForm, LoadForm, Pair};
+use super::fraction::{Vector, Wrench, exact, float, magnitude, solve, square_length, zero};
+use super::{BodyForm, Certificate, Change, ContactForm, FrameForm, GripForm, LimitForm, LoadForm};
 
 /// The result of checking a certificate.
 #[derive(Clone, Debug, PartialEq)]
@@ -381,127 +382,11 @@ impl Certificate {
     }
 
     /// The names of the two bodies of a contact.
-    fn names(&self, contact: &ContactForm) -> String {
+    pub(super) fn names(&self, contact: &ContactForm) -> String {
         let [on, from] = contact.bodies.map(|index| self.bodies[index].id.as_str());
         format!("{on} on {from}")
     }
-
-    /// Checks that the contact points of a frame lie at both outlines and that every pair of bodies that touch has its
-    /// contact. Raises `farthest` to the largest distance of a point from an outline.
-    fn place_faults(&self, frame: &FrameForm, farthest: &mut f64) -> Vec<String> {
-        if self.listed {
-            return Vec::new();
-        }
-        let mut faults = Vec::new();
-        let allowed = square(&exact(self.distance));
-        for contact in &frame.contacts {
-            let mut edges_at = Vec::new();
-            for (body, sign) in contact.bodies.iter().zip([1, -1]) {
-                let edges = edges(&self.bodies[*body]);
-                for at in &contact.points {
-                    let at = Vector::new(*at);
-                    let nearest = edges.iter().map(|[a, b]| distance_squared(&at, a, b)).min();
-                    let Some(nearest) = nearest else { continue };
-                    *farthest = farthest.max(float(&nearest).sqrt());
-                    if nearest > allowed {
-                        faults.push(format!("{}: a point does not lie at both outlines", self.names(contact)));
-                    }
-                }
-                edges_at.push((edges, sign));
-            }
-            if !self.faces(contact, &edges_at) {
-                faults.push(format!("{}: the normal does not point from one body into the other", self.names(contact)));
-            }
-        }
-        if frame.verdict == "unstable" {
-            faults.extend(self.missing_contacts(frame));
-        }
-        faults
-    }
-
-    /// True if the normal of a contact is that of the outlines: it makes an angle of less than 0.6° with the inner normal
-    /// of an edge of the first body or with the outer normal of an edge of the second body at the contact. Where two
-    /// corners meet, it separates them.
-    fn faces(&self, contact: &ContactForm, edges_at: &[(Vec<[Vector; 2]>, i32)]) -> bool {
-        let normal = normal_of(contact);
-        let allowed = square(&exact(self.distance));
-        let middle = Vector::new(contact.points[0]);
-        let is_corner = contact.points.len() == 1
-            && edges_at.iter().all(|(edges, sign)| separates(&normal, edges, *sign, &middle, &allowed));
-        is_corner
-            || edges_at.iter().any(|(edges, sign)| {
-                edges.iter().any(|[a, b]| {
-                    let inner = b.minus(a).turned();
-                    let along = normal.dot(&inner) * Rational::from(*sign);
-                    let across = square(&normal.cross(&inner));
-                    // An edge shorter than the distance bounds no angle; tan² = (10⁻³)² for the others.
-                    along > zero()
-                        && across <= exact(ANGLE_SQUARED) * square(&along)
-                        && distance_squared(&middle, a, b) <= allowed
-                })
-            })
-    }
-
-    /// Returns the pairs of bodies that touch in a frame without a contact.
-    ///
-    /// Two outlines that come close do so at a corner of one of them. So each corner that lies at another outline must
-    /// lie at a contact of these bodies. Where corners carry no force, one corner alone needs no contact, but two on the
-    /// same edges that are farther apart than the shortest joint do.
-    fn missing_contacts(&self, frame: &FrameForm) -> Vec<String> {
-        let mut faults = Vec::new();
-        let allowed = square(&exact(self.distance));
-        let covered = square(&exact(2.0 * self.distance + self.shortest));
-        let shortest = square(&exact(self.shortest + 2.0 * self.distance));
-        let ground = (0..self.bodies.len()).filter(|index| self.bodies[*index].ground);
-        let present: Vec<usize> = ground.chain(frame.placed.iter().copied()).collect();
-        for (k, one) in present.iter().enumerate() {
-            for other in &present[k + 1..] {
-                let bodies = [&self.bodies[*one], &self.bodies[*other]];
-                if bodies.iter().all(|body| body.ground) || !boxes_meet(bodies, self.distance) {
-                    continue;
-                }
-                let contacts =
-                    frame.contacts.iter().filter(|c| c.bodies == [*one, *other] || c.bodies == [*other, *one]);
-                let spans: Vec<[Vector; 2]> = contacts.map(span).collect();
-                let is_covered = |at: &Vector| spans.iter().any(|[a, b]| distance_squared(at, a, b) <= covered);
-                let edges = bodies.map(edges);
-                for [a, b] in &edges[0] {
-                    for [c, d] in &edges[1] {
-                        let near = [(a, c, d), (b, c, d), (c, a, b), (d, a, b)];
-                        let near = near.into_iter().filter(|(at, p, q)| distance_squared(at, p, q) <= allowed);
-                        let bare: Vec<&Vector> = near.map(|(at, ..)| at).filter(|at| !is_covered(at)).collect();
-                        let apart = bare.iter().flat_map(|p| bare.iter().map(|q| square_length(&p.minus(q)))).max();
-                        let is_corner = apart.as_ref().is_none_or(|apart| *apart <= shortest);
-                        let crosses = bare.is_empty() && spans.is_empty() && cross_each_other([a, b], [c, d]);
-                        if !is_corner || (self.corners_carry && !bare.is_empty()) || crosses {
-                            let names = bodies.map(|body| body.id.as_str()).join(" and ");
-                            faults.push(format!("{names} touch without a contact"));
-                        }
-                    }
-                }
-            }
-        }
-        faults.dedup();
-        faults
-    }
 }
-
-/// True if both edges of a body that meet at a corner lie on its own side of the contact: along the normal for the first
-/// body (sign 1), against it for the second (sign −1).
-fn separates(normal: &Vector, edges: &[[Vector; 2]], sign: i32, at: &Vector, allowed: &Rational) -> bool {
-    let ends = edges.iter().flat_map(|[a, b]| [(a, b), (b, a)]);
-    let ways = ends.filter(|(near, _)| square_length(&near.minus(at)) <= *allowed).map(|(near, far)| far.minus(near));
-    let ways: Vec<Vector> = ways.collect();
-    ways.len() == 2
-        && ways.iter().all(|way| {
-            let along = normal.dot(way) * Rational::from(sign);
-            along >= zero() || square(&along) <= exact(ANGLE_SQUARED) * square(&normal.cross(way))
-        })
-}
-
-/// The square of the tangent of the largest angle between a contact and the edge that it lies at. A joint of bricks
-/// within the contact tolerance may be turned by about 0.1°.
-const ANGLE_SQUARED: f64 = 1e-4;
 
 /// A contact or a grip: the body on which it acts, the body that receives the opposite force (none for the ground and for
 /// robots), its normal, and the wrenches of its three components.
@@ -510,115 +395,6 @@ struct Link {
     from: Option<usize>,
     normal: Vector,
     wrenches: [Wrench; 3],
-}
-
-/// A vector or a point with rational coordinates.
-#[derive(Clone, Debug, PartialEq)]
-struct Vector {
-    x: Rational,
-    y: Rational,
-}
-
-impl Vector {
-    fn new([x, y]: Pair) -> Vector {
-        Vector { x: exact(x), y: exact(y) }
-    }
-
-    fn minus(&self, other: &Vector) -> Vector {
-        Vector { x: &self.x - &other.x, y: &self.y - &other.y }
-    }
-
-    fn dot(&self, other: &Vector) -> Rational {
-        &self.x * &other.x + &self.y * &other.y
-    }
-
-    fn cross(&self, other: &Vector) -> Rational {
-        &self.x * &other.y - &self.y * &other.x
-    }
-
-    /// This vector turned by 90° anticlockwise.
-    fn turned(&self) -> Vector {
-        Vector { x: -self.y.clone(), y: self.x.clone() }
-    }
-}
-
-/// A force with its moment about the origin; or the velocity of the origin with the angular velocity.
-#[derive(Clone, Debug)]
-struct Wrench {
-    force: Vector,
-    moment: Rational,
-}
-
-impl Wrench {
-    fn zero() -> Wrench {
-        Wrench { force: Vector { x: zero(), y: zero() }, moment: zero() }
-    }
-
-    fn of_force(force: &Vector, at: &Vector) -> Wrench {
-        Wrench { force: force.clone(), moment: at.cross(force) }
-    }
-
-    fn plus(&self, other: &Wrench) -> Wrench {
-        let force = Vector { x: &self.force.x + &other.force.x, y: &self.force.y + &other.force.y };
-        Wrench { force, moment: &self.moment + &other.moment }
-    }
-
-    fn minus(&self, other: &Wrench) -> Wrench {
-        Wrench { force: self.force.minus(&other.force), moment: &self.moment - &other.moment }
-    }
-
-    fn negative(&self) -> Wrench {
-        Wrench::zero().minus(self)
-    }
-
-    fn times(&self, factor: &Rational) -> Wrench {
-        let force = Vector { x: &self.force.x * factor, y: &self.force.y * factor };
-        Wrench { force, moment: &self.moment * factor }
-    }
-
-    /// The power of this force along a motion.
-    fn power(&self, motion: &Wrench) -> Rational {
-        self.force.dot(&motion.force) + &self.moment * &motion.moment
-    }
-
-    fn largest(&self) -> Rational {
-        [&self.force.x, &self.force.y, &self.moment].into_iter().map(magnitude).max().unwrap_or_else(zero)
-    }
-
-    /// The same numbers as fractions in lowest terms.
-    fn reduced(&self) -> Wrench {
-        let [x, y, moment] = self.entries().map(|v| v.clone().canonicalize().relax());
-        Wrench { force: Vector { x, y }, moment }
-    }
-
-    fn entries(&self) -> [&Rational; 3] {
-        [&self.force.x, &self.force.y, &self.moment]
-    }
-}
-
-/// The rational number that a double is. JSON has no infinite numbers, and the form has been checked.
-fn exact(value: f64) -> Rational {
-    Rational::try_from(value).unwrap_or_else(|_| zero())
-}
-
-fn zero() -> Rational {
-    Rational::ZERO
-}
-
-fn float(value: &Rational) -> f64 {
-    value.to_f64().value()
-}
-
-fn magnitude(value: &Rational) -> Rational {
-    if *value < zero() { -value.clone() } else { value.clone() }
-}
-
-fn square(value: &Rational) -> Rational {
-    value * value
-}
-
-fn square_length(vector: &Vector) -> Rational {
-    vector.dot(vector)
 }
 
 /// The centroid of an outline without its holes, whatever the direction of the rings; `None` if it has no area.
@@ -644,7 +420,7 @@ fn centroid(body: &BodyForm) -> Option<Vector> {
 }
 
 /// The normal of a contact, which points into its first body.
-fn normal_of(contact: &ContactForm) -> Vector {
+pub(super) fn normal_of(contact: &ContactForm) -> Vector {
     match (&contact.points[..], contact.normal) {
         ([first, second], _) => {
             let tangent = Vector::new(*second).minus(&Vector::new(*first));
@@ -664,70 +440,4 @@ fn grip_wrenches(grip: &GripForm) -> [Wrench; 3] {
     let at = Vector::new(grip.at);
     let torque = Wrench { force: Vector { x: zero(), y: zero() }, moment: Rational::ONE };
     [Wrench::of_force(&Vector::new([1.0, 0.0]), &at), Wrench::of_force(&Vector::new([0.0, 1.0]), &at), torque]
-}
-
-/// Solves Σ amount · column = wanted by Cramer's rule; `None` if the columns depend on each other.
-fn solve(columns: &[Wrench], wanted: &Wrench) -> Option<[Rational; 3]> {
-    let det = |a: &Wrench, b: &Wrench, c: &Wrench| -> Rational {
-        let ([ax, ay, am], [bx, by, bm], [cx, cy, cm]) = (a.entries(), b.entries(), c.entries());
-        ax * (by * cm - bm * cy) - ay * (bx * cm - bm * cx) + am * (bx * cy - by * cx)
-    };
-    let [a, b, c] = columns else { return None };
-    let whole = det(a, b, c);
-    (whole != zero()).then(|| [det(wanted, b, c) / &whole, det(a, wanted, c) / &whole, det(a, b, wanted) / &whole])
-}
-
-/// The edges of a body, with its inside on the left.
-fn edges(body: &BodyForm) -> Vec<[Vector; 2]> {
-    let mut edges = Vec::new();
-    for (ring, corners) in std::iter::once(&body.outline).chain(&body.holes).enumerate() {
-        let corners: Vec<Vector> = corners.iter().map(|p| Vector::new(*p)).collect();
-        let next = || corners.iter().cycle().skip(1);
-        let twice = corners.iter().zip(next()).map(|(p, q)| p.cross(q)).fold(zero(), |sum, term| sum + term);
-        let is_forward = (twice > zero()) == (ring == 0);
-        edges.extend(corners.iter().zip(next()).map(|(p, q)| match is_forward {
-            true => [p.clone(), q.clone()],
-            false => [q.clone(), p.clone()],
-        }));
-    }
-    edges
-}
-
-/// The square of the distance of a point from a segment.
-fn distance_squared(at: &Vector, a: &Vector, b: &Vector) -> Rational {
-    let (along, from) = (b.minus(a), at.minus(a));
-    let (length, place) = (square_length(&along), along.dot(&from));
-    if place <= zero() {
-        square_length(&from)
-    } else if place >= length {
-        square_length(&at.minus(b))
-    } else {
-        square(&along.cross(&from)) / length
-    }
-}
-
-/// The two ends of a contact.
-fn span(contact: &ContactForm) -> [Vector; 2] {
-    match contact.ends {
-        Some(ends) => ends.map(Vector::new),
-        None => [&contact.points[0], &contact.points[contact.points.len() - 1]].map(|p| Vector::new(*p)),
-    }
-}
-
-/// True if the boxes around two bodies, grown by twice the distance, meet. Bodies for which this is false do not touch.
-fn boxes_meet(bodies: [&BodyForm; 2], distance: f64) -> bool {
-    [0, 1].iter().all(|axis| {
-        let [one, other] = bodies.map(|body| {
-            let places = body.outline.iter().map(|p| p[*axis]);
-            places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
-        });
-        one[0] - 2.0 * distance <= other[1] && other[0] - 2.0 * distance <= one[1]
-    })
-}
-
-/// True if two segments cross in a point inside both.
-fn cross_each_other([a, b]: [&Vector; 2], [c, d]: [&Vector; 2]) -> bool {
-    let side = |p: &Vector, q: &Vector, at: &Vector| q.minus(p).cross(&at.minus(p));
-    let opposite = |one: Rational, other: Rational| one * other < zero();
-    opposite(side(a, b, c), side(a, b, d)) && opposite(side(c, d, a), side(c, d, b))
 }

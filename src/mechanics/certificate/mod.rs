@@ -14,8 +14,10 @@
 //! ([Livesley78](crate::doc::references)).
 
 mod check;
+mod fraction;
 mod limits;
 mod make;
+mod places;
 
 use serde::{Deserialize, Serialize};
 

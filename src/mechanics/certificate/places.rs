@@ -1,0 +1,181 @@
+//! Checks in exact arithmetic that the contacts of a frame are those of its outlines: each lies where it says, and none is
+//! left out.
+
+use dashu_ratio::Relaxed as Rational;
+
+use super::check::normal_of;
+use super::fraction::{Vector, exact, float, square, square_length, zero};
+use super::{BodyForm, Certificate, ContactForm, FrameForm};
+
+impl Certificate {
+    /// Checks that the contact points of a frame lie at both outlines and that every pair of bodies that touch has its
+    /// contact. Raises `farthest` to the largest distance of a point from an outline.
+    pub(super) fn place_faults(&self, frame: &FrameForm, farthest: &mut f64) -> Vec<String> {
+        if self.listed {
+            return Vec::new();
+        }
+        let mut faults = Vec::new();
+        let allowed = square(&exact(self.distance));
+        for contact in &frame.contacts {
+            let mut edges_at = Vec::new();
+            for (body, sign) in contact.bodies.iter().zip([1, -1]) {
+                let edges = edges(&self.bodies[*body]);
+                for at in &contact.points {
+                    let at = Vector::new(*at);
+                    let nearest = edges.iter().map(|[a, b]| distance_squared(&at, a, b)).min();
+                    let Some(nearest) = nearest else { continue };
+                    *farthest = farthest.max(float(&nearest).sqrt());
+                    if nearest > allowed {
+                        faults.push(format!("{}: a point does not lie at both outlines", self.names(contact)));
+                    }
+                }
+                edges_at.push((edges, sign));
+            }
+            if !self.faces(contact, &edges_at) {
+                faults.push(format!("{}: the normal does not point from one body into the other", self.names(contact)));
+            }
+        }
+        if frame.verdict == "unstable" {
+            faults.extend(self.missing_contacts(frame));
+        }
+        faults
+    }
+
+    /// True if the normal of a contact is that of the outlines: it makes an angle of less than 0.6° with the inner normal
+    /// of an edge of the first body or with the outer normal of an edge of the second body at the contact. Where two
+    /// corners meet, it separates them.
+    fn faces(&self, contact: &ContactForm, edges_at: &[(Vec<[Vector; 2]>, i32)]) -> bool {
+        let normal = normal_of(contact);
+        let allowed = square(&exact(self.distance));
+        let middle = Vector::new(contact.points[0]);
+        let is_corner = contact.points.len() == 1
+            && edges_at.iter().all(|(edges, sign)| separates(&normal, edges, *sign, &middle, &allowed));
+        is_corner
+            || edges_at.iter().any(|(edges, sign)| {
+                edges.iter().any(|[a, b]| {
+                    let inner = b.minus(a).turned();
+                    let along = normal.dot(&inner) * Rational::from(*sign);
+                    let across = square(&normal.cross(&inner));
+                    // An edge shorter than the distance bounds no angle; tan² = (10⁻³)² for the others.
+                    along > zero()
+                        && across <= exact(ANGLE_SQUARED) * square(&along)
+                        && distance_squared(&middle, a, b) <= allowed
+                })
+            })
+    }
+
+    /// Returns the pairs of bodies that touch in a frame without a contact.
+    ///
+    /// Two outlines that come close do so at a corner of one of them. So each corner that lies at another outline must
+    /// lie at a contact of these bodies. Where corners carry no force, one corner alone needs no contact, but two on the
+    /// same edges that are farther apart than the shortest joint do.
+    fn missing_contacts(&self, frame: &FrameForm) -> Vec<String> {
+        let mut faults = Vec::new();
+        let allowed = square(&exact(self.distance));
+        let covered = square(&exact(2.0 * self.distance + self.shortest));
+        let shortest = square(&exact(self.shortest + 2.0 * self.distance));
+        let ground = (0..self.bodies.len()).filter(|index| self.bodies[*index].ground);
+        let present: Vec<usize> = ground.chain(frame.placed.iter().copied()).collect();
+        for (k, one) in present.iter().enumerate() {
+            for other in &present[k + 1..] {
+                let bodies = [&self.bodies[*one], &self.bodies[*other]];
+                if bodies.iter().all(|body| body.ground) || !boxes_meet(bodies, self.distance) {
+                    continue;
+                }
+                let contacts =
+                    frame.contacts.iter().filter(|c| c.bodies == [*one, *other] || c.bodies == [*other, *one]);
+                let spans: Vec<[Vector; 2]> = contacts.map(span).collect();
+                let is_covered = |at: &Vector| spans.iter().any(|[a, b]| distance_squared(at, a, b) <= covered);
+                let edges = bodies.map(edges);
+                for [a, b] in &edges[0] {
+                    for [c, d] in &edges[1] {
+                        let near = [(a, c, d), (b, c, d), (c, a, b), (d, a, b)];
+                        let near = near.into_iter().filter(|(at, p, q)| distance_squared(at, p, q) <= allowed);
+                        let bare: Vec<&Vector> = near.map(|(at, ..)| at).filter(|at| !is_covered(at)).collect();
+                        let apart = bare.iter().flat_map(|p| bare.iter().map(|q| square_length(&p.minus(q)))).max();
+                        let is_corner = apart.as_ref().is_none_or(|apart| *apart <= shortest);
+                        let crosses = bare.is_empty() && spans.is_empty() && cross_each_other([a, b], [c, d]);
+                        if !is_corner || (self.corners_carry && !bare.is_empty()) || crosses {
+                            let names = bodies.map(|body| body.id.as_str()).join(" and ");
+                            faults.push(format!("{names} touch without a contact"));
+                        }
+                    }
+                }
+            }
+        }
+        faults.dedup();
+        faults
+    }
+}
+
+/// True if both edges of a body that meet at a corner lie on its own side of the contact: along the normal for the first
+/// body (sign 1), against it for the second (sign −1).
+fn separates(normal: &Vector, edges: &[[Vector; 2]], sign: i32, at: &Vector, allowed: &Rational) -> bool {
+    let ends = edges.iter().flat_map(|[a, b]| [(a, b), (b, a)]);
+    let ways = ends.filter(|(near, _)| square_length(&near.minus(at)) <= *allowed).map(|(near, far)| far.minus(near));
+    let ways: Vec<Vector> = ways.collect();
+    ways.len() == 2
+        && ways.iter().all(|way| {
+            let along = normal.dot(way) * Rational::from(sign);
+            along >= zero() || square(&along) <= exact(ANGLE_SQUARED) * square(&normal.cross(way))
+        })
+}
+
+/// The square of the tangent of the largest angle between a contact and the edge that it lies at. A joint of bricks
+/// within the contact tolerance may be turned by about 0.1°.
+const ANGLE_SQUARED: f64 = 1e-4;
+
+/// The edges of a body, with its inside on the left.
+fn edges(body: &BodyForm) -> Vec<[Vector; 2]> {
+    let mut edges = Vec::new();
+    for (ring, corners) in std::iter::once(&body.outline).chain(&body.holes).enumerate() {
+        let corners: Vec<Vector> = corners.iter().map(|p| Vector::new(*p)).collect();
+        let next = || corners.iter().cycle().skip(1);
+        let twice = corners.iter().zip(next()).map(|(p, q)| p.cross(q)).fold(zero(), |sum, term| sum + term);
+        let is_forward = (twice > zero()) == (ring == 0);
+        edges.extend(corners.iter().zip(next()).map(|(p, q)| match is_forward {
+            true => [p.clone(), q.clone()],
+            false => [q.clone(), p.clone()],
+        }));
+    }
+    edges
+}
+
+/// The square of the distance of a point from a segment.
+fn distance_squared(at: &Vector, a: &Vector, b: &Vector) -> Rational {
+    let (along, from) = (b.minus(a), at.minus(a));
+    let (length, place) = (square_length(&along), along.dot(&from));
+    if place <= zero() {
+        square_length(&from)
+    } else if place >= length {
+        square_length(&at.minus(b))
+    } else {
+        square(&along.cross(&from)) / length
+    }
+}
+
+/// The two ends of a contact.
+fn span(contact: &ContactForm) -> [Vector; 2] {
+    match contact.ends {
+        Some(ends) => ends.map(Vector::new),
+        None => [&contact.points[0], &contact.points[contact.points.len() - 1]].map(|p| Vector::new(*p)),
+    }
+}
+
+/// True if the boxes around two bodies, grown by twice the distance, meet. Bodies for which this is false do not touch.
+fn boxes_meet(bodies: [&BodyForm; 2], distance: f64) -> bool {
+    [0, 1].iter().all(|axis| {
+        let [one, other] = bodies.map(|body| {
+            let places = body.outline.iter().map(|p| p[*axis]);
+            places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+        });
+        one[0] - 2.0 * distance <= other[1] && other[0] - 2.0 * distance <= one[1]
+    })
+}
+
+/// True if two segments cross in a point inside both.
+fn cross_each_other([a, b]: [&Vector; 2], [c, d]: [&Vector; 2]) -> bool {
+    let side = |p: &Vector, q: &Vector, at: &Vector| q.minus(p).cross(&at.minus(p));
+    let opposite = |one: Rational, other: Rational| one * other < zero();
+    opposite(side(a, b, c), side(a, b, d)) && opposite(side(c, d, a), side(c, d, b))
+}
