@@ -308,6 +308,9 @@ pub mod doc {
     #[doc = include_str!("doc/placement.md")]
     pub mod placement {}
 
+    #[doc = include_str!("doc/questions.md")]
+    pub mod questions {}
+
     #[doc = include_str!("doc/claims.md")]
     pub mod claims {}
 

@@ -100,6 +100,7 @@ class Scene:
         self,
         polygon: Outline | None = None,
         *,
+        id: str | None = None,
         holes: Iterable[Outline] | None = None,
         cells: Sequence[Sequence[Any]] | None = None,
         shape: str | None = None,
@@ -109,7 +110,7 @@ class Scene:
         material: str | None = None,
         fill: str | None = None,
     ) -> Scene:
-        """Adds a part of the ground, which supports any load and never moves."""
+        """Adds a part of the ground, which supports any load. ``id`` names it in results and for :meth:`movement`."""
         keys = _without(locals(), "self", "polygon", "holes")
         return self._add("ground", _geometry.body(polygon, holes, keys))
 
@@ -231,6 +232,21 @@ class Scene:
     ) -> Scene:
         """Adds a load case: factors on all ``weights`` and on each of the ``loads`` that act, by their ids."""
         return self._add("cases", _without(locals(), "self"))
+
+    def movement(
+        self,
+        ground: str,
+        translation: Point | None = None,
+        *,
+        rotation: float | None = None,
+        about: Point | None = None,
+    ) -> Scene:
+        """Asks how the structure follows a small movement of the part of the ground with the id ``ground``.
+
+        The part is moved by ``translation`` and turned by ``rotation``, in degrees anticlockwise, about the point
+        ``about`` (its centroid by default).
+        """
+        return self._add("movements", _without(locals(), "self"))
 
     def contact(
         self,

@@ -46,6 +46,7 @@ mod pages;
 mod peers;
 mod margins;
 mod mechanism;
+mod movement;
 mod pictures;
 mod placement;
 mod polygons;

@@ -109,6 +109,7 @@ fn title(name: &str) -> &str {
         "LoadEntry" => "A load",
         "DepthEntry" => "A pressure that grows with the depth",
         "CaseEntry" => "A load case",
+        "MovementEntry" => "A movement",
         "StepEntry" => "A step",
         "GripEntry" => "A grip",
         "UnitsEntry" => "Units",
@@ -193,6 +194,7 @@ fn the_format_page_describes_every_key_of_a_scene_file() {
         "LoadEntry",
         "DepthEntry",
         "CaseEntry",
+        "MovementEntry",
         "StepEntry",
         "GripEntry",
         "UnitsEntry",
@@ -357,7 +359,7 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
             "cases": [{ "id": "with" }, { "id": "without", "loads": {} }] }"#
             .to_owned(),
     );
-    for folder in ["assets/thesis", "tests/scenes"] {
+    for folder in ["assets/questions", "assets/thesis", "tests/scenes"] {
         let mut files: Vec<_> = std::fs::read_dir(root.join(folder))
             .expect("readable")
             .map(|entry| entry.expect("readable").path())

@@ -11,7 +11,7 @@ use crate::mechanics::scene::{Frame, Scene};
 use crate::products::result::Timing;
 use crate::products::wording::number::{amount, duration, letter, tenths};
 use crate::products::wording::verdict::plain;
-use crate::products::wording::{capacity, case, failure, margin, placement, proof};
+use crate::products::wording::{capacity, case, failure, margin, movement, placement, proof};
 use crate::text::heading;
 
 /// The words in the tables and in the lines below them, with their meanings.
@@ -324,6 +324,8 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) 
     remarks.extend(case::lines(frame));
     remarks.extend(margin::lines(scene, frame));
     remarks.extend(frame.placement.as_ref().map(|p| format!("placement: {}", placement::sentence(scene, frame, p))));
+    let moved = frame.movements.iter().map(|m| format!("movement: {}", movement::sentence(scene, frame, m)));
+    remarks.extend(moved);
     let carried = frame.capacity.iter();
     remarks.extend(carried.map(|c| format!("capacity: {}", capacity::sentences(scene, frame.verdict, c))));
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));

@@ -34,6 +34,7 @@ pub(super) fn unloaded_frame(context: &FrameContext, assembly: &Assembly, effect
         margins: None,
         sensitivity: None,
         placement: None,
+        movements: Vec::new(),
         capacity: None,
         only_by_wedging: None,
         exact: None,

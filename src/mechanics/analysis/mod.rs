@@ -23,6 +23,7 @@ mod pair;
 mod placement;
 mod wedged;
 mod thrust_states;
+mod movement;
 mod sensitivity;
 
 use std::fmt;
@@ -56,6 +57,7 @@ pub use margin::{
     trials,
 };
 pub use mechanism::Toward;
+pub use movement::{Crack, Cracked, MovementOutcome, SupportMovement};
 pub use option::{Accuracy, Options};
 pub use pair::pair;
 pub use placement::{BlockPlacement, Placement, PlacementError, PlacementLimit};
@@ -178,6 +180,8 @@ pub struct FrameAnalysis {
     pub cases: Option<LoadCases>,
     /// How accurately the blocks must be placed, if requested and if the frame stands.
     pub placement: Option<Placement>,
+    /// How the structure follows each movement of a support that the scene lists, if the frame stands.
+    pub movements: Vec<SupportMovement>,
     /// The forces that a block can carry, if requested and if the block is placed.
     pub capacity: Option<LoadCapacity>,
     /// Whether the frame stands only by a self-stress that its loads do not build up from rest. `None` if not
@@ -227,6 +231,7 @@ impl Analysis {
         let (interfaces, mut frames) = analyse::analyse(&scene, options);
         gaps_closed::recheck(&scene, &interfaces, &mut frames, options);
         capacity::add_capacities(&scene, &interfaces, &mut frames, options);
+        movement::add_movements(&scene, &interfaces, &mut frames, options);
         let notes = gaps_closed::notes(&scene, &interfaces);
         Analysis { scene, frames, notes, case_scenes: Vec::new() }
     }

@@ -8,7 +8,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Analysis, Contact, FrameAnalysis, Options, Verdict};
+use super::{Analysis, Contact, FrameAnalysis, Motion, Options, Verdict};
 use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::program::{Column, Force, Program, Scale, columns};
 use crate::mechanics::proof::{self, ContactForces, Forces, GripForces, Proof};
@@ -125,6 +125,7 @@ impl Analysis {
     fn central(&self, number: usize) -> Option<ThrustState> {
         let kernel = self.frames[number].margins.as_ref()?.kernel.at()?;
         let mut scene = Scene::clone(&self.scene);
+        scene.movements.clear();
         scene.kernel = (kernel * (1.0 - WITHIN_KERNEL)).clamp(scene.kernel, 1.0);
         let found = Analysis::with(scene, &Options::default()).frames.swap_remove(number);
         let frame = FrameAnalysis { contacts: found.contacts, robots: found.robots, ..self.frames[number].clone() };
@@ -170,32 +171,52 @@ fn extreme_forces(scene: &Scene, component: &Assembly, sign: f64) -> Option<Forc
     let place = |contact: usize| across.dot(&component.contacts[contact].points[0].coords);
     let supports = (0..component.contacts.len()).filter(|k| component.contacts[*k].from.is_none());
     let middle = middle(supports.map(place));
+    let cost = |contact: usize, _, force: Vector| {
+        let side = if place(contact) < middle { 1.0 } else { -1.0 };
+        sign * side * force.dot(&across)
+    };
+    cheapest_forces(component, cost, PRICE_OF_FORCE).ok().map(|cheapest| cheapest.0)
+}
+
+/// Returns the forces of a component that have the least cost, and the motion that proves that it is the least: no
+/// contact force within the friction cones has less power along it than minus its cost. `cost` is the cost of the unit
+/// force of a contact with the ground: its contact, its application point, and the force on the block. Every force of
+/// the program costs `price` in addition.
+///
+/// # Errors
+/// The status of the linear program if it has no optimum; `Unsolved` also if the forces do not balance every body.
+pub(super) fn cheapest_forces(
+    component: &Assembly,
+    cost: impl Fn(usize, usize, Vector) -> f64,
+    price: f64,
+) -> Result<(Forces, Vec<Motion>), Status> {
     let program = Program::new(component, Scale::from_assembly(component));
     let columns = columns(&program);
-    let cost = |column: &Column| {
-        let inward = match column.force {
-            Force::Ray { contact, normal, friction, .. } if component.contacts[contact].from.is_none() => {
-                let axis = component.contacts[contact].normal;
-                let force: Vector = axis * normal + quarter_turn(axis) * friction;
-                let side = if place(contact) < middle { 1.0 } else { -1.0 };
-                side * force.dot(&across)
-            }
-            _ => 0.0,
-        };
-        sign * inward + PRICE_OF_FORCE
+    let cost_of = |column: &Column| match column.force {
+        Force::Ray { contact, point, normal, friction } if component.contacts[contact].from.is_none() => {
+            let axis = component.contacts[contact].normal;
+            price + cost(contact, point, axis * normal + quarter_turn(axis) * friction)
+        }
+        _ => price,
     };
-    let solved = dual(&program.loads, &columns, Conditioning::Full, &mut Effort::default(), cost);
+    let solved = dual(&program.loads, &columns, Conditioning::Full, &mut Effort::default(), cost_of);
     if solved.status != Status::Solved {
-        return None;
+        return Err(solved.status);
     }
     let mut amounts = Amounts::zero(&program);
     for (column, amount) in columns.iter().zip(&solved.amounts) {
         amounts.add(column.force, *amount);
     }
     let forces = in_newtons(component, &program, &amounts);
+    let bodies = component.bodies.iter().zip(solved.y.chunks_exact(3));
+    let motions = bodies.map(|(body, y)| Motion {
+        block: body.block,
+        velocity: -Vector::new(y[0], y[1]),
+        spin: -y[2] / program.scale.length,
+    });
     match proof::check_forces(component, &forces) {
-        Proof::Forces { worst_imbalance, .. } if worst_imbalance <= BALANCE_TOL => Some(forces),
-        _ => None,
+        Proof::Forces { worst_imbalance, .. } if worst_imbalance <= BALANCE_TOL => Ok((forces, motions.collect())),
+        _ => Err(Status::Unsolved),
     }
 }
 
@@ -215,7 +236,7 @@ fn in_newtons(component: &Assembly, program: &Program, amounts: &Amounts) -> For
 }
 
 /// Copies the forces of a component, in newtons, to the contacts and robots of a frame, and computes their resultants.
-fn set_forces(state: &mut FrameAnalysis, component: &Assembly, forces: &Forces, kernel: f64) {
+pub(super) fn set_forces(state: &mut FrameAnalysis, component: &Assembly, forces: &Forces, kernel: f64) {
     for (assembled, forces) in component.contacts.iter().zip(&forces.contacts) {
         let contact = &mut state.contacts[assembled.interface];
         let (normal, friction) = (forces.normal, forces.friction);

@@ -52,6 +52,8 @@ pub struct Body {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Ground {
+    /// The id given in the file, if any.
+    pub id: Option<String>,
     /// Its shape, position and surface.
     pub body: Body,
 }

@@ -11,6 +11,7 @@ mod declare;
 mod lines;
 mod load;
 mod map;
+mod question;
 mod step;
 mod unit;
 
@@ -26,6 +27,7 @@ pub use body::{BlockEntry, ContactEntry, GroundEntry, LimitsEntry, RobotEntry};
 pub(crate) use lines::Lines;
 pub use load::{BlockSide, CaseEntry, DepthEntry, LoadEntry, PressureEntry};
 pub use map::Map;
+pub use question::MovementEntry;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
 pub use unit::{ForceUnit, LengthUnit, UnitsEntry};
 
@@ -88,6 +90,8 @@ entry! {
         /// Load cases. With cases, the verdict of a frame is that of its worst case. Without cases, all loads act with
         /// factor 1.
         cases: Vec<CaseEntry>,
+        /// Small movements of parts of the ground. For each, the analysis finds how the structure follows.
+        movements: Vec<MovementEntry>,
         /// Contact tolerance in the length unit of the scene, at least 0: edges at most this far apart touch, and
         /// bodies may overlap by up to this depth. Default: estimated from how the coordinates are written and how
         /// large the scene is.
@@ -197,6 +201,12 @@ impl SceneFile {
     /// Adds a load case. With cases, the verdict of a frame is that of its worst case.
     pub fn case(mut self, case: CaseEntry) -> Self {
         self.cases.push(case);
+        self
+    }
+
+    /// Adds a small movement of a part of the ground.
+    pub fn movement(mut self, movement: MovementEntry) -> Self {
+        self.movements.push(movement);
         self
     }
 

@@ -17,6 +17,7 @@ mod number;
 mod outline;
 mod steps;
 mod problem;
+mod question;
 mod reading;
 mod resolution;
 mod rounding;
@@ -37,6 +38,7 @@ pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
 pub use note::{Note, NoteCode};
 pub use problem::{Code, Place, Problem, SceneError};
+pub use question::Movement;
 pub use reading::{falling_starter, starter};
 pub use resolution::SketchedBody;
 pub use sketch::{Sketch, Spot};
@@ -91,6 +93,8 @@ pub struct Scene {
     pub(crate) loads: Vec<Load>,
     /// The load cases; empty if all loads act as listed.
     pub(crate) cases: Vec<Case>,
+    /// Small movements of parts of the ground.
+    pub(crate) movements: Vec<Movement>,
     /// Materials, in the file's order.
     pub(crate) materials: Vec<Material>,
     /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`].
@@ -212,6 +216,11 @@ impl Scene {
         &self.cases
     }
 
+    /// Returns the small movements of parts of the ground.
+    pub fn movements(&self) -> &[Movement] {
+        &self.movements
+    }
+
     /// Returns the materials, in the file's order.
     pub fn materials(&self) -> &[Material] {
         &self.materials
@@ -259,10 +268,11 @@ impl Scene {
         }
     }
 
-    /// Returns the name of a body in results: the id of a block, or `"ground"` for every part of the ground.
+    /// Returns the name of a body in results: the id of a block or of a part of the ground, or `"ground"` for a
+    /// part without an id.
     pub fn name(&self, id: BodyId) -> &str {
         match id {
-            BodyId::Ground(_) => "ground",
+            BodyId::Ground(i) => self.ground.get(i).and_then(|part| part.id.as_deref()).unwrap_or("ground"),
             BodyId::Block(id) => &self.blocks[id.0].id,
         }
     }

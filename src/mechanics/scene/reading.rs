@@ -205,7 +205,7 @@ mod tests {
         "density": 2, "thickness": 3, "materials": { "oak": { "density": 700, "friction": 0.1, "fill": "#123" }, "b": {} },
         "friction_pairs": [{ "between": ["oak", "b"], "friction": 1e-3 }], "grid": { "kind": "square", "side": 2 },
         "shapes": { "s": { "polygon": [[0, 0], [1, 0], [1, 1]], "holes": [[[0.1, 0.1]]] }, "t": { "cells": [[0, 1]] } },
-        "ground": [{ "shape": "s", "at": [1, 2], "angle": 90, "material": "b", "friction": 2, "fill": "#abc" },
+        "ground": [{ "id": "left", "shape": "s", "at": [1, 2], "angle": 90, "material": "b", "friction": 2, "fill": "#abc" },
                    { "polygon": [[0, 0]], "holes": [] }, { "cells": [[1, 2, "up"], [3, 4, "down"]] }],
         "blocks": [{ "id": "a", "polygon": [[0, 0]], "holes": [[[1, 2]]], "material": "oak", "weight": 1, "mass": 2, "density": 3,
                      "friction": 4, "fill": "#fff", "shape": null, "at": [5, 6], "angle": -90, "centre": [1, 2], "cells": [[7, 8]] }, {}],
@@ -214,7 +214,8 @@ mod tests {
         "loads": [{ "block": "a", "force": [1, 2], "at": [3, 4], "torque": 5, "id": "l", "fixed": true },
             { "block": "a", "side": "top", "pressure": [1, 2] }, { "between": [[1, 2], [3, 4]], "pressure": 2.5 },
             { "block": "a", "side": "left", "pressure": { "surface": 1, "unit_weight": 2, "coefficient": 3, "friction_angle": 4 } }],
-        "cases": [{ "id": "c", "weights": 0.9, "loads": { "l": 1.5 } }], "contact_tolerance": 1e-9,
+        "cases": [{ "id": "c", "weights": 0.9, "loads": { "l": 1.5 } }],
+        "movements": [{ "ground": "left", "translation": [1, 2], "rotation": 0.1, "about": [0, 0] }], "contact_tolerance": 1e-9,
         "corner_contacts": true, "steps": [{ "title": "t", "release": ["r"], "remove": ["a"], "place": ["a"],
             "hold": { "r": "a", "q": { "block": "a", "at": [1, 2] } }, "plan": { "r": "a" } }, {}], "silence": ["x"] }"##;
 

@@ -6,6 +6,7 @@ mod contact;
 mod free_edges;
 mod list;
 mod load;
+mod question;
 mod sketch;
 
 use self::closeness::Closeness;
@@ -138,12 +139,14 @@ impl<'f> Resolution<'f> {
         }
         let closeness = self.heal(findings, &mut ground, &mut blocks);
         self.check_ids(findings);
+        self.check_ground_ids(findings);
         let friction_pairs = self.friction_pairs(findings);
         let centroids: Vec<Point> =
             (blocks.iter()).map(|b| b.as_ref().map_or(Point::origin(), |b| b.centroid)).collect();
         let robots = self.robots(findings, &names.blocks, &centroids);
         let loads = self.loads(findings, &names.blocks, &ground, &blocks);
         let cases = self.cases(findings);
+        let movements = self.movements(findings, &ground);
         let mut frames = self.frames(findings, &names, &robots, &centroids);
         for frame in &mut frames {
             frame.expected = frame.expected.or(self.file.expect);
@@ -170,6 +173,7 @@ impl<'f> Resolution<'f> {
             robots,
             loads,
             cases,
+            movements,
             materials: materials.map(|m| Material { name: m.0.clone() }).collect(),
             friction_pairs,
             // A listed contact is a single point, so it transmits force in the same way as a corner contact.

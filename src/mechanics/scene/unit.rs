@@ -153,6 +153,10 @@ pub(super) fn to_si(scene: &mut Scene) {
     for point in points {
         *point = Point::from(point.coords * length);
     }
+    for movement in &mut scene.movements {
+        movement.translation *= length;
+        movement.about = Point::from(movement.about.coords * length);
+    }
     for penetration in &mut scene.penetrations {
         penetration.depth *= length;
     }

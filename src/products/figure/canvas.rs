@@ -53,6 +53,8 @@ pub(crate) struct Canvas<'a> {
     /// The displacements of the blocks, indexed by block; `None` for a block that is drawn where it stands. The list may
     /// be shorter than the number of blocks.
     pub displaced: Vec<Option<Displacement>>,
+    /// The part of the ground that is drawn where it moves to, and its displacement.
+    pub moved_ground: Option<(usize, Displacement)>,
     /// The words after the verdict, if the figure finds them while it draws.
     pub words: Option<Vec<String>>,
     /// The blocks that these words mention.
@@ -103,6 +105,7 @@ impl<'a> Canvas<'a> {
             fills,
             window,
             displaced,
+            moved_ground: None,
             words,
             mentioned,
             marks,
@@ -150,14 +153,19 @@ impl<'a> Canvas<'a> {
 
     /// Converts a point of a body, which moves with the body, to its position on the canvas.
     pub fn place_on(&self, body: BodyId, point: Point) -> PagePoint {
-        let BodyId::Block(block) = body else { return self.place(point) };
-        self.place(self.displacement(block).map_or(point, |moved| moved.moved(point)))
+        self.place(self.displacement_of(body).map_or(point, |moved| moved.moved(point)))
+    }
+
+    fn displacement_of(&self, body: BodyId) -> Option<&Displacement> {
+        match body {
+            BodyId::Block(block) => self.displacement(block),
+            BodyId::Ground(part) => self.moved_ground.as_ref().filter(|moved| moved.0 == part).map(|moved| &moved.1),
+        }
     }
 
     /// Converts a direction that turns with a body to a direction on the canvas, of the same length.
     pub fn turn_on(&self, body: BodyId, direction: Vector) -> (f64, f64) {
-        let moved = if let BodyId::Block(block) = body { self.displacement(block) } else { None };
-        let turned = moved.map_or(direction, |moved| moved.turned(direction));
+        let turned = self.displacement_of(body).map_or(direction, |moved| moved.turned(direction));
         (turned.x, -turned.y)
     }
 

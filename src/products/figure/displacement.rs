@@ -111,6 +111,11 @@ impl Course {
         course
     }
 
+    /// Returns the largest displacement at the end of the path of a point of speed 1, in metres.
+    pub fn amplitude(&self) -> f64 {
+        self.parts.iter().map(|part| part.amplitude).fold(0.0, f64::max)
+    }
+
     /// Returns the displacement of each block, indexed by block; `None` for a block at rest. `share` is the position on
     /// the path, from 0 (original position) to 1 (end). The list is empty if no block moves.
     pub fn at(&self, share: f64) -> Vec<Option<Displacement>> {
@@ -163,7 +168,8 @@ fn solid_bodies<'a>(fall: &Fall<'a>) -> Vec<Solid<'a>> {
     }
     let blocks = scene.frames[fall.frame].placed.iter().map(|id| (*id, &scene.blocks[id.0].body));
     let blocks = blocks.filter(|(_, body)| !body.is_schematic).map(|(id, body)| (Some(id), &body.polygon));
-    blocks.chain(scene.ground.iter().map(|ground| (None, &ground.body.polygon))).collect()
+    let ground = scene.ground.iter().filter(|ground| !ground.body.is_schematic);
+    blocks.chain(ground.map(|ground| (None, &ground.body.polygon))).collect()
 }
 
 /// Returns the blocks that overlap another body by more than [`MAX_OVERLAP`] after the displacement. `displaced` is

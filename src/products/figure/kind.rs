@@ -10,6 +10,7 @@ use super::joint_forces::{self, JointForces, about_build};
 use super::kernel::Kernel;
 use super::margin::CollapseMargin;
 use super::mechanism::Mechanism;
+use super::movement::MovedSupport;
 use super::option::{ArrowScale, Options};
 use super::placement::PlacementTolerance;
 use super::polygon::ForcePolygon;
@@ -72,11 +73,13 @@ pub enum Kind {
     Freebody,
     /// How far each block alone may be off its place, and the pattern of errors with which the structure falls.
     Placement,
+    /// How the structure cracks and follows a support that moves a little. The option `movement` selects the movement.
+    Movement,
 }
 
 impl Kind {
     /// All kinds, in the order in which the help text lists them.
-    pub const ALL: [Kind; 15] = [
+    pub const ALL: [Kind; 16] = [
         Kind::Forces,
         Kind::Flow,
         Kind::Mechanism,
@@ -92,6 +95,7 @@ impl Kind {
         Kind::Structure,
         Kind::Freebody,
         Kind::Placement,
+        Kind::Movement,
     ];
 
     /// Returns what draws a figure of this kind.
@@ -112,6 +116,7 @@ impl Kind {
             Kind::Structure => &Structure,
             Kind::Freebody => &FreeBody,
             Kind::Placement => &PlacementTolerance,
+            Kind::Movement => &MovedSupport,
         }
     }
 

@@ -85,7 +85,7 @@ impl Figure for Mechanism {
 }
 
 /// Draws dashed outlines of the moving blocks in their present positions.
-fn ghosts(canvas: &mut Canvas<'_>) {
+pub(super) fn ghosts(canvas: &mut Canvas<'_>) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
     let stroke = Stroke::new(theme.faint, canvas.mm(0.16)).dashed([canvas.mm(0.6), canvas.mm(0.5)]);
     let (swatch, width) = small_block(canvas.look);

@@ -31,6 +31,7 @@ mod kernel;
 mod kind;
 mod margin;
 mod mechanism;
+mod movement;
 mod option;
 mod parallel_arrows;
 mod placement;

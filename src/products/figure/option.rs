@@ -166,6 +166,11 @@ request! {
         pub columns: Option<usize> = given.whole("columns", [1, 65535]).map(|columns| columns as usize),
             arg(long, value_name = "N", help = "Panels per row of a strip",
                 value_parser = clap::builder::TypedValueParser::map(clap::value_parser!(u16).range(1..), usize::from));
+        /// The movement of the scene that [`Kind::Movement`](super::Kind::Movement) shows, from 1; `None` for the first one
+        /// that the structure follows.
+        pub movement: Option<usize> = given.whole("movement", [1, 65535]).map(|number| number as usize),
+            arg(long, value_name = "N", help = "The movement of a support that --kind movement shows, from 1",
+                value_parser = clap::builder::TypedValueParser::map(clap::value_parser!(u16).range(1..), usize::from));
         /// The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.
         pub toward: Toward = Toward::default(), arg(skip);
         /// How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.

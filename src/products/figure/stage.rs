@@ -54,7 +54,7 @@ pub(crate) fn ground(canvas: &mut Canvas<'_>) {
             }
             continue;
         }
-        let shapes: Vec<Path> = edges.iter().flat_map(|edge| hatched(canvas, edge, structure)).collect();
+        let shapes: Vec<Path> = edges.iter().flat_map(|edge| hatched(canvas, body, edge, structure)).collect();
         let mark = Mark::new(Layer::Ground, "earth", shapes);
         canvas.put(mark.titled("Ground".into()).avoided(0.0));
     }
@@ -69,9 +69,9 @@ fn overlaps(a: PageRect, b: PageRect, by: f64) -> bool {
 
 /// Draws one edge of the ground: a line, and a band of short lines on the side of the ground. A nearly horizontal edge
 /// ends 3 mm beyond the `structure`.
-fn hatched(canvas: &Canvas<'_>, edge: &Edge, structure: PageRect) -> Vec<Path> {
+fn hatched(canvas: &Canvas<'_>, body: BodyId, edge: &Edge, structure: PageRect) -> Vec<Path> {
     let theme = canvas.theme();
-    let [mut from, mut to] = [edge.from, edge.to].map(|p| canvas.place(p));
+    let [mut from, mut to] = [edge.from, edge.to].map(|p| canvas.place_on(body, p));
     if (to.y - from.y).abs() < (to.x - from.x).abs() {
         let (left, beyond) = (structure.at.x, canvas.mm(3.0));
         let window = PageRect {

@@ -458,6 +458,20 @@ pub static KEYS: &[Key] = &[
             key("normal", Pair, "least and greatest sum of the normal forces").unit("N"),
             key("friction", Pair, "least and greatest friction force").unit("N"),
         ]),
+        key("movements", Objects, "how the structure follows each movement of a support, for small displacements; a joint that slides also opens, by μ times the slip").when("if the scene lists `movements` and the frame stands").of(&[
+            key("ground", Text, "part of the ground that moves"),
+            key("outcome", Word(&["follows", "jams", "untouched", "unsolved"]), "`follows`: it cracks and follows the support; `jams`: rigid blocks cannot follow; `untouched`: no block touches the support where it moves; `unsolved`: the solver ended without a result"),
+            key("unit", Number, "displacement of the fastest point at which the structure touches the support; `joints` and `velocities` are per metre of it").unit("m").when("if it follows"),
+            key("force", Pair, "force of the structure on the support: H to the right, V upwards").unit("N").when("if it follows"),
+            key("work", Number, "work of this force on the movement, the least of all forces that balance the frame").unit("J").when("if it follows"),
+            key("joints", Objects, "joints that open or slide").when("if it follows").of(&[
+                key("interface", Count, "index in `interfaces`, from 0"),
+                key("end", Count, "application point that stays closed, 0 or 1").when("if the joint opens about one end"),
+                key("opening", Number, "how far it opens at its wider end").unit("m/m"),
+                key("slip", Number, "how far the first body slides along (−n_y, n_x)").unit("m/m"),
+            ]),
+            key("velocities", Motions, "displacement of the placed blocks").when("if it follows"),
+        ]),
         key("only_by_wedging", FlagOrOpen, "whether the frame stands only because blocks press on each other although no load presses them together; null if this could not be decided, and `effects` then gives the reason").when("with `--wedging`, if the frame stands"),
         key("wedging", Object, "proof that the frame stands only by wedging").when("with `--wedging`, if `only_by_wedging` is `true`").of(&[
             key("must_press", Objects, "interfaces that open or slide if the springs give way; in every balance, their normal forces sum to at least `normal_force_at_least`, if a bound was found").of(&[
@@ -492,7 +506,7 @@ pub static KEYS: &[Key] = &[
             ]),
         ]),
         key("effects", Objects, "effects that were considered for this frame").of(&[
-            key("effect", Text, "`weight`, `contact`, `friction`, `kernel`, `robots`, `robot torque`, `loads`, `corner contacts`, `sticking`, `mechanism`, `margins` or `wedging`; with `--placement` also `placement`"),
+            key("effect", Text, "`weight`, `contact`, `friction`, `kernel`, `robots`, `robot torque`, `loads`, `corner contacts`, `sticking`, `mechanism`, `margins` or `wedging`; with `--placement` also `placement`, and with movements of supports also `movements`"),
             key("simulated", Flag, "whether it was simulated"),
             key("why", Text, "reason"),
             key("unknowns", Count, "number of unknowns that the effect adds, or would have added"),

@@ -20,6 +20,7 @@ mod import;
 pub mod key;
 mod line;
 mod margin;
+mod movement;
 mod refusal;
 mod placement;
 mod sensitivity;
@@ -41,6 +42,7 @@ pub use key::schema;
 pub use line::{Fields, Origin, PictureOutcome, UnknownField, line_of, verdict_line};
 use margin::Margins;
 pub use margin::margins_json;
+use movement::Movement;
 use placement::Placement;
 pub use refusal::{problem_line, refusal};
 #[cfg(feature = "wasm")]
@@ -199,6 +201,8 @@ struct Frame<'a> {
     governing_case: Option<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     envelope: Vec<Envelope>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    movements: Vec<Movement<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     capacity: Option<Capacity<'a>>,
     /// `Some(None)`, written as `null`, if it was requested but could not be decided.
@@ -318,6 +322,7 @@ impl<'a> Frame<'a> {
             cases: cases.iter().flat_map(|cases| &cases.each).map(Case::new).collect(),
             governing_case: cases.map(|cases| cases.each[cases.governing].id.as_str()),
             envelope: cases.iter().flat_map(|cases| cases.envelope.iter().enumerate()).map(Envelope::new).collect(),
+            movements: frame.movements.iter().map(|m| Movement::new(scene, m)).collect(),
             capacity: frame.capacity.as_ref().map(|c| Capacity::new(scene, c)),
             only_by_wedging: is_simulated(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
             wedging: (frame.wedged.as_ref()).map(|w| Wedging::new(scene, frame, w)),

@@ -32,15 +32,23 @@ pub fn by_amount(frame_analysis: &FrameAnalysis) -> Vec<&Failure> {
 /// Returns the name of a body for a sentence: `block 2` or `the ground`.
 pub fn named(scene: &Scene, body: BodyId) -> String {
     match body {
-        BodyId::Ground(_) => "the ground".to_owned(),
+        BodyId::Ground(_) => ground(scene, body).to_owned(),
         BodyId::Block(_) => format!("block {}", scene.name(body)),
+    }
+}
+
+/// Returns the name of a part of the ground for a sentence: its id, or `the ground`.
+fn ground(scene: &Scene, body: BodyId) -> &str {
+    match scene.name(body) {
+        "ground" => "the ground",
+        id => id,
     }
 }
 
 /// Returns the names of the two bodies of an interface: `2 and the ground`.
 pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
     let [a, b] = bodies.map(|id| match id {
-        BodyId::Ground(_) => "the ground",
+        BodyId::Ground(_) => ground(scene, id),
         BodyId::Block(_) => scene.name(id),
     });
     format!("{a} and {b}")

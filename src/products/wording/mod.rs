@@ -11,6 +11,7 @@ pub mod failure;
 #[cfg(feature = "report")]
 pub mod headline;
 pub mod margin;
+pub mod movement;
 pub mod number;
 pub mod placement;
 pub mod proof;

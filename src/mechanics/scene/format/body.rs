@@ -8,6 +8,9 @@ use super::{CellEntry, Pair, two_names};
 entry! {
     /// A part of the ground; one of `polygon`, `cells` and `shape` gives its outline.
     pub struct GroundEntry {
+        /// Name of this part of the ground in results and in the list `movements`, used by no block and no other part;
+        /// neither empty nor `ground`. Default: results call the part `ground`.
+        id: Option<String>,
         /// Corners [x, y] of the outline in the length unit of the scene, clockwise or anticlockwise. The outline must
         /// not cross itself; it may be concave.
         polygon: Option<Vec<Pair>> [length(min = 3)],

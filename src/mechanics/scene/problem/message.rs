@@ -34,16 +34,20 @@ pub(in crate::mechanics::scene) fn id_twice(sort: &str, id: &str, first: &str) -
     )
 }
 
-pub(in crate::mechanics::scene) fn reserved_id() -> Wording {
+pub(in crate::mechanics::scene) fn reserved_id(sort: &str) -> Wording {
     new_wording(
         Code::ReservedName,
         "the id `ground` is reserved for the ground in results",
-        "give the block another id",
+        format!("give the {sort} another id"),
     )
 }
 
 pub(in crate::mechanics::scene) fn empty_id(sort: &str) -> Wording {
     new_wording(Code::EmptyId, format!("the {sort}'s id is empty"), "write an id of at least one character")
+}
+
+pub(in crate::mechanics::scene) fn no_movement() -> Wording {
+    new_wording(Code::OutOfRange, "the movement is zero", "give a `translation` [x, y] or a `rotation` in degrees")
 }
 
 pub(in crate::mechanics::scene) fn built_in_shape(name: &str) -> Wording {

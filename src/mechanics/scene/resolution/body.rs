@@ -127,7 +127,9 @@ impl Resolution<'_> {
         let top = Trail::Top;
         let list = top.key("ground");
         (self.file.ground.iter().enumerate())
-            .map(|(i, entry)| Some(Ground { body: self.body(findings, &list.index(i), &entry.into())? }))
+            .map(|(i, entry)| {
+                Some(Ground { id: entry.id.clone(), body: self.body(findings, &list.index(i), &entry.into())? })
+            })
             .collect()
     }
 

@@ -94,7 +94,7 @@ impl Resolution<'_> {
                 if let BodyId::Ground(number) = &mut contact.bodies[1] {
                     *number = ground.len();
                     let body = self.support(contact.at, contact.normal, sign);
-                    ground.push(Some(Ground { body }));
+                    ground.push(Some(Ground { id: None, body }));
                 }
             }
         }

@@ -111,7 +111,7 @@ fn ids(findings: &mut Findings, list: &Trail<'_>, sort: &str, ids: &[String], gi
         if id.is_empty() {
             findings.add(at, problem::message::empty_id(sort));
         } else if sort == "block" && id == "ground" {
-            findings.add(at, problem::message::reserved_id());
+            findings.add(at, problem::message::reserved_id(sort));
         }
         if let Some(first) = first.get(id.as_str()) {
             findings.add(at, problem::message::id_twice(sort, id, &list.index(*first).path().to_string()));

@@ -17,6 +17,7 @@ mod kernel;
 mod load;
 pub mod margin;
 pub mod mechanism;
+pub mod movement;
 pub mod placement;
 mod robot;
 mod robot_torque;
@@ -61,6 +62,8 @@ pub enum EffectName {
     Wedging,
     /// How accurately the blocks must be placed. Reported only if it was requested.
     Placement,
+    /// How the structure follows a support that moves. Reported only if the scene lists movements.
+    Movements,
 }
 
 impl EffectName {
@@ -80,6 +83,7 @@ impl EffectName {
             EffectName::Margins => "margins",
             EffectName::Wedging => "wedging",
             EffectName::Placement => "placement",
+            EffectName::Movements => "movements",
         }
     }
 
@@ -99,6 +103,7 @@ impl EffectName {
             EffectName::Margins => "how far loads, friction, tilt and geometry may change before the verdict changes",
             EffectName::Wedging => "whether it stands only by a self-stress that its loads do not build up",
             EffectName::Placement => "how far blocks may be off their places before the verdict changes",
+            EffectName::Movements => "how the structure cracks and which force it exerts if a support moves a little",
         }
     }
 }

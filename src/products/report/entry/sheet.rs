@@ -5,14 +5,14 @@ use super::joints::{Ranking, robots};
 use super::row::headline_words;
 use super::unit::Units;
 use super::{Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs, verdict_text};
-use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, MovementOutcome, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::mechanics::scene::Unit;
 use crate::pictures::drawing::Drawing;
 use crate::products::figure::{self, Kind, Options};
 use crate::products::wording::number::letter;
 use crate::products::wording::verdict::plain;
-use crate::products::wording::{placement, proof, verdict};
+use crate::products::wording::{movement, placement, proof, verdict};
 use crate::text::line;
 
 /// Width of a figure, in pixels. It is half a page, so that labels are legible in print and on a phone.
@@ -80,6 +80,7 @@ pub(super) fn sheet(
     }
     parts.push(SheetPart::Note(balance::check_words(frame_analysis)));
     parts.extend(margins(scene, frame_analysis));
+    parts.extend(movements(scene, frame_analysis));
     parts.push(SheetPart::Heading("Assumptions and proof".to_owned()));
     parts.push(SheetPart::Text(assumptions(scene, frame_analysis)));
     parts.push(SheetPart::Text(proof::sentence(frame_analysis.proof)));
@@ -183,6 +184,9 @@ fn kinds_of_figures(frame_analysis: &FrameAnalysis) -> Vec<(Kind, &'static str)>
                 let caption = "How the structure would fall just beyond its margin.";
                 kinds.push((Kind::Margin, caption));
             }
+            if frame_analysis.movements.iter().any(|m| matches!(m.outcome, MovementOutcome::Follows(_))) {
+                kinds.push((Kind::Movement, "How the structure cracks as its support moves, enlarged."));
+            }
         }
     }
     kinds
@@ -241,6 +245,28 @@ fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
     parts.push(SheetPart::Note(bullet::SHAPES_LEGEND.to_owned()));
     parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
     parts
+}
+
+/// Returns the table of the movements of supports, if there are any.
+fn movements(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
+    if frame_analysis.movements.is_empty() {
+        return Vec::new();
+    }
+    let mut grid = Grid::new("", &["if", "force on the support", "joints that open most"]);
+    for moved in &frame_analysis.movements {
+        let [force, joints] = match &moved.outcome {
+            MovementOutcome::Follows(cracked) => {
+                [movement::force(scene, cracked), movement::cracks(scene, frame_analysis, cracked)]
+            }
+            other => [String::new(), movement::without_state(other).to_owned()],
+        };
+        grid.add("", [movement::movement(scene, moved), force, joints].map(|words| line(&words)));
+    }
+    let note = "Of all forces that balance the structure, those whose force on the support does least work on the \
+                movement (H to the right, V upwards). Small displacements, per millimetre of the movement; a joint that \
+                slides also opens, by μ times the slip.";
+    let heading = SheetPart::Heading("Movements of supports".to_owned());
+    vec![heading, SheetPart::Table(grid), SheetPart::Note(note.to_owned())]
 }
 
 fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {

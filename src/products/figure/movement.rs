@@ -1,0 +1,199 @@
+//! Draws how a structure cracks as a support moves: the displaced blocks and the displaced support, their present
+//! positions as dashed outlines, and at each joint how far it opens or slides per unit of the movement.
+//!
+//! The picture is made like that of a mechanism, in which the support is one more block that moves. The words state the
+//! movement for which it is drawn.
+
+use std::rc::Rc;
+
+use super::about::About;
+use super::canvas::Canvas;
+use super::description::pair;
+use super::design::{Key, Layer, Mark, moved_edge, small_block};
+use super::displacement::Course;
+use super::fall::Fall;
+use super::gives::{self, Gives, How};
+use super::mechanism::ghosts;
+use super::option::Options;
+use super::placing::Label;
+use super::sheet::Figure;
+use super::stage;
+use super::unit::unit;
+use super::verdict;
+use crate::mechanics::analysis::{Analysis, Crack, Cracked, Motion, MovementOutcome, SupportMovement, Verdict};
+use crate::mechanics::scene::{Block, BlockId, BodyId, Movement, Scene};
+use crate::pictures::drawing::{Outline, Path, Stroke};
+use crate::products::wording::movement::{force, movement, per_unit, without_state};
+use crate::products::wording::number::{quantity, round_below_in, three};
+
+/// The opacity of the fill of a displaced block.
+const OPACITY: f64 = 0.38;
+/// The largest number of joints that state how far they open or slide.
+const MAX_AMOUNTS: usize = 12;
+
+/// The figure of a support that moves.
+pub(crate) struct MovedSupport;
+
+impl Figure for MovedSupport {
+    fn about(&self) -> About {
+        About {
+            name: "movement",
+            help: "How the structure cracks as a support moves; --movement selects one of several movements",
+            title: "How a dry-laid structure follows its support",
+            states_own_margin: true,
+            ..About::default()
+        }
+    }
+
+    fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
+        let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+        match (chosen(analysis, frame, options), found.verdict) {
+            (Some(moved), _) => {
+                let pushes = match &moved.outcome {
+                    MovementOutcome::Follows(cracked) => {
+                        format!("the structure pushes it with {}", force(scene, cracked))
+                    }
+                    other => without_state(other).to_owned(),
+                };
+                vec![movement(scene, moved), pushes]
+            }
+            (None, Verdict::Stable) => vec!["the scene lists no movement of a support".into()],
+            (None, Verdict::Unstable) => vec!["it falls before a support moves".into()],
+            (None, Verdict::Undecided) => vec![verdict::reason(scene, found)],
+        }
+    }
+
+    fn draw(&self, canvas: &mut Canvas<'_>) {
+        let moved = chosen(canvas.analysis, canvas.number, canvas.options);
+        if let Some((cracked, own)) = moved.and_then(|moved| state(canvas.scene(), moved)) {
+            displace(canvas, cracked, own);
+            stage::ground(canvas);
+            stage::blocks(canvas);
+            ghosts(canvas);
+            displaced(canvas, own);
+            cracks(canvas, cracked);
+        } else {
+            stage::ground(canvas);
+            stage::blocks(canvas);
+        }
+        stage::held(canvas);
+        stage::loads(canvas);
+        stage::names(canvas);
+    }
+}
+
+/// Returns the movement that the options name, or the first one that the structure follows.
+fn chosen<'a>(analysis: &'a Analysis, frame: usize, options: &Options) -> Option<&'a SupportMovement> {
+    let all = &analysis.frames[frame].movements;
+    match options.movement {
+        Some(number) => all.get(number - 1),
+        None => all.iter().find(|m| matches!(m.outcome, MovementOutcome::Follows(_))).or(all.first()),
+    }
+}
+
+fn state<'a>(scene: &'a Scene, moved: &'a SupportMovement) -> Option<(&'a Cracked, &'a Movement)> {
+    match &moved.outcome {
+        MovementOutcome::Follows(cracked) => Some((cracked, scene.movements.get(moved.number)?)),
+        _ => None,
+    }
+}
+
+/// Displaces the blocks and the support of the canvas. The paths are those of an analysis in which the support is the
+/// last block.
+fn displace(canvas: &mut Canvas<'_>, cracked: &Cracked, movement: &Movement) {
+    let Some(mut alone) = canvas.analysis.alone(canvas.number) else { return };
+    let mut scene = Scene::clone(&alone.scene);
+    let (ground, support) = (BodyId::Ground(movement.ground), BlockId(scene.blocks.len()));
+    let Some(first) = scene.blocks.first() else { return };
+    let body = scene.ground[movement.ground].body.clone();
+    let block = Block { centroid: body.polygon.centroid(), body, ..first.clone() };
+    let velocity = movement.at(block.centroid) / cracked.unit;
+    scene.blocks.push(block);
+    // Bodies without an outline of their own stop no block.
+    scene.ground[movement.ground].body.is_schematic = true;
+    for body in alone.frames[0].contacts.iter_mut().flat_map(|contact| &mut contact.interface.bodies) {
+        if *body == ground {
+            *body = BodyId::Block(support);
+        }
+    }
+    alone.scene = scene.into();
+    let motion = Motion { block: support, velocity, spin: movement.rotation / cracked.unit };
+    let motions: Vec<Motion> = cracked.motions.iter().copied().chain([motion]).collect();
+    let fall = Fall::with(&alone, 0, &motions);
+    let size = unit(canvas.scene(), canvas.options.zoom);
+    let course = &canvas.own().courses.get_or_init(|| vec![Course::new(&fall, size)])[0];
+    let amplitude = course.amplitude();
+    let drawn = round_below_in(amplitude, canvas.scene().units.length());
+    canvas.displaced = course.at(canvas.options.motion_progress * drawn / amplitude.max(f64::MIN_POSITIVE));
+    canvas.moved_ground = canvas.displaced.pop().flatten().map(|way| (movement.ground, way));
+    let moves = quantity(drawn, canvas.scene().units.length());
+    canvas.note(62, &format!("drawn for a movement of {moves}; amounts are mm per mm of it"));
+}
+
+/// Draws the displaced blocks, and the present edge of the support.
+fn displaced(canvas: &mut Canvas<'_>, movement: &Movement) {
+    let (scene, theme) = (canvas.scene(), canvas.theme());
+    let edge = Stroke::new(moved_edge(theme), canvas.mm(if canvas.look.large { 0.26 } else { 0.2 }));
+    let drawn = |outline: Outline| {
+        let fill = Path::filled(outline.clone(), theme.motion).with_opacity(OPACITY);
+        vec![fill, Path::stroked(outline, edge.clone())]
+    };
+    let (swatch, width) = small_block(canvas.look);
+    let key = Rc::new(Key { rank: 11, words: "how they follow, enlarged".into(), symbol: drawn(swatch), width });
+    for id in &canvas.frame().placed {
+        if canvas.displacement(*id).is_none() {
+            continue;
+        }
+        let (block, mut outline) = (&scene.blocks[id.0], Outline::default());
+        for ring in block.body.polygon.rings() {
+            outline.extend(Outline::ring(ring.iter().map(|p| canvas.place_on(BodyId::Block(*id), *p))));
+        }
+        canvas.put(Mark::new(Layer::Stone, "displaced", drawn(outline)).keyed(&key).titled(block.id.clone()));
+    }
+    // Where the support touches the structure now.
+    let stroke = Stroke::new(theme.faint, canvas.mm(0.16)).dashed([canvas.mm(0.6), canvas.mm(0.5)]);
+    let contacts = canvas.found().contacts.iter().map(|contact| &contact.interface);
+    let mut outline = Outline::default();
+    for interface in contacts.filter(|interface| interface.bodies.contains(&BodyId::Ground(movement.ground))) {
+        outline.extend(Outline::line(interface.ends.map(|end| canvas.place(end))));
+    }
+    canvas.put(Mark::new(Layer::Stone, "ghosts", vec![Path::stroked(outline, stroke)]));
+}
+
+/// Draws the joints that open or slide, with their amounts.
+fn cracks(canvas: &mut Canvas<'_>, cracked: &Cracked) {
+    let found = canvas.found();
+    let one = |crack: &Crack| {
+        let contact = &found.contacts[crack.contact];
+        let at = crack.end.map(|end| contact.application_points[end]);
+        let how = match (at, crack.slip) {
+            (Some(at), 0.0) => How::Hinge(at),
+            (_, 0.0) => return None,
+            (touch, slip) => How::Slip(slip, touch),
+        };
+        Some(Gives { contact, how })
+    };
+    let joints: Vec<Gives<'_>> = cracked.cracks.iter().filter_map(one).collect();
+    let words = ["hinge".to_owned(), "slides, and opens by friction × distance".to_owned()];
+    gives::draw(canvas, Layer::Symbol, &joints, words);
+    if !canvas.options.main_amounts {
+        return;
+    }
+    let mut widest: Vec<&Crack> = cracked.cracks.iter().collect();
+    widest.sort_by(|a, b| b.opening.max(b.slip.abs()).total_cmp(&a.opening.max(a.slip.abs())));
+    for (rank, crack) in (0..).zip(widest.into_iter().take(MAX_AMOUNTS)) {
+        let contact = &found.contacts[crack.contact];
+        let points = contact.application_points;
+        let open = crack.end.map_or(contact.interface.middle(), |end| points[1 - end]);
+        let anchors = contact.interface.bodies.map(|body| canvas.place_on(body, open)).to_vec();
+        let amount =
+            if crack.slip == 0.0 { three(crack.opening) } else { format!("slides {}", three(crack.slip.abs())) };
+        let mut label = Label::new(amount, canvas.theme().ink, anchors, rank);
+        label.bold = rank == 0;
+        canvas.label(label);
+        let title = format!("{} open by {}", pair(canvas.scene(), contact.interface.bodies), per_unit(crack.opening));
+        let line = Outline::line(contact.interface.bodies.map(|body| canvas.place_on(body, open)));
+        let stroke = Stroke::new(canvas.theme().ink, canvas.mm(0.2));
+        canvas.put(Mark::new(Layer::Symbol, "opening", vec![Path::stroked(line, stroke)]).titled(title));
+    }
+}
