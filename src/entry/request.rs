@@ -1,6 +1,7 @@
 //! What a user asks for, on the command line and in the JSON that Python and JavaScript send. Each option is declared
 //! once: its name, its help, and how its value is read.
 
+use std::borrow::Cow;
 use std::str::FromStr;
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,7 +10,7 @@ use crate::clock::Instant;
 use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Toward, typed_capacity};
 #[cfg(feature = "certificate")]
 use crate::mechanics::certificate::Certificate;
-use crate::mechanics::scene::{BlockId, Scene, SceneError};
+use crate::mechanics::scene::{BlockId, Scene, SceneError, Setting};
 use crate::pictures::drawing::{Colour, Drawing, Theme};
 use crate::products::figure::{self, Kind};
 use crate::read::{Dialect, Given, requested};
@@ -17,7 +18,7 @@ use crate::text::Word;
 
 request! {
     /// How strict, how long and with which contacts a scene is analysed.
-    #[derive(Clone, Copy, Debug)]
+    #[derive(Clone, Debug)]
     pub(crate) struct AnalysisArgs(given) {
         /// How strict the proof of a verdict must be; proved is stricter than standard by a factor of 100 for forces
         /// and 1000 for motions, and says which verdicts hold in exact arithmetic
@@ -36,6 +37,10 @@ request! {
         /// Stop solving after this many seconds; frames that are not decided by then are undecided
         time_limit: Option<Duration> = given.value("time_limit", seconds),
             arg(long, value_name = "SECONDS", value_parser = seconds);
+        /// Give a key of the scene another value, such as friction=0.5, kernel=0.2, gravity=[0,-1.62] or
+        /// blocks.V3.weight=20, also several times; tilt=5 turns gravity to the right by 5°, and load_factor=2 doubles
+        /// all loads
+        set: Vec<Setting> = Vec::new(), arg(long, value_name = "KEY=VALUE");
     }
 }
 
@@ -150,17 +155,27 @@ impl From<String> for Refused {
 
 impl AnalysisArgs {
     /// Reads the text of a scene. With `frame`, the scene keeps only this frame.
-    pub(crate) fn scene(self, text: &str, frame: Option<FrameChoice>) -> Result<Scene, Refused> {
-        let scene = Scene::from_json_within(text, self.contact_tolerance)?;
+    pub(crate) fn scene(&self, text: &str, frame: Option<FrameChoice>) -> Result<Scene, Refused> {
+        let (scene, _) = self.read_scene(0, text.as_bytes())?;
         Ok(match frame {
             Some(frame) => frame.of(&scene, "the scene")?,
             None => scene,
         })
     }
 
+    /// Reads a scene from the bytes of its file, in which `lines_before` lines stand before it. Also returns the bytes
+    /// with the values that the option `set` changes.
+    pub(crate) fn read_scene<'b>(
+        &self,
+        lines_before: usize,
+        bytes: &'b [u8],
+    ) -> Result<(Scene, Cow<'b, [u8]>), SceneError> {
+        Scene::from_slice_set(lines_before, bytes, self.contact_tolerance, &self.set)
+    }
+
     /// Returns the options of the analysis, without the contact tolerance, which the reader of the scene applies. The
     /// time limit starts at this call.
-    pub(crate) fn options(self) -> analysis::Options {
+    pub(crate) fn options(&self) -> analysis::Options {
         analysis::Options {
             accuracy: self.accuracy,
             wedging: self.wedging,
@@ -173,7 +188,7 @@ impl AnalysisArgs {
     /// Returns the name and the value of each option. A resume file records these values, because the results of a
     /// batch depend on them.
     #[cfg(feature = "cli")]
-    pub(crate) fn described(self) -> [(&'static str, String); 5] {
+    pub(crate) fn described(&self) -> [(&'static str, String); 6] {
         let tolerance = self.contact_tolerance.map(|metres| format!("{metres} m"));
         let limit = self.time_limit.map(|limit| format!("{limit:?}"));
         [
@@ -182,6 +197,7 @@ impl AnalysisArgs {
             ("--placement", if self.placement { "yes" } else { "no" }.into()),
             ("--contact-tolerance", tolerance.unwrap_or_else(|| "not given".into())),
             ("--time-limit", limit.unwrap_or_else(|| "not given".into())),
+            ("--set", self.set.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
         ]
     }
 }

@@ -116,7 +116,8 @@ fn every_note_has_its_path_and_line_and_can_be_silenced() {
         let silent = text.replacen('{', &format!("{{ \"silence\": [\"{code}\"],"), 1);
         assert_eq!(notes(&silent), [], "{silent}");
     }
-    assert_eq!(missing, []);
+    // `--set` has tests of its own.
+    assert_eq!(missing, [NoteCode::SetUnused]);
 }
 
 #[test]

@@ -412,3 +412,35 @@ fn a_report_counts_the_moving_blocks_that_its_picture_draws_and_names_joints_tha
     assert!(report.contains(&format!("{drawn} blocks move, with")), "{report}");
     assert!(report.contains("sliding and tipping joint"), "{report}");
 }
+
+#[test]
+fn values_of_a_scene_are_set_for_one_run_and_stated() {
+    let folder = Folder::new(&[("a.json", STANDS), ("c.ndjson", &STANDS.replace('\n', " "))]);
+    folder.done("report --compare a.json --set load_factor=2 --set friction=0.65 -o r.json");
+    let json: serde_json::Value = serde_json::from_str(&folder.text("r.json")).expect("JSON");
+    let scenes = &json["comparisons"][0]["scenes"];
+    assert!(scenes[0]["set"].is_null() && scenes[1]["set"].as_array().is_some_and(|set| set.len() == 2), "{scenes}");
+    assert!(scenes[1]["scene"].as_str().is_some_and(|title| title.ends_with("friction = 0.65")), "{scenes}");
+    folder.done("report --compare a.json --set kernel=0.1 -o r.md");
+    let page = folder.text("r.md");
+    let [differs, margins] = ["What else differs", "**Margins**"].map(|words| page.find(words).expect(words));
+    assert!(differs < margins && page.contains("render a.json --set kernel=0.1 -o figure.svg"), "{page}");
+    folder.done("render a.json --set friction=0.6 -o a.svg");
+    assert!(folder.text("a.svg").contains("with friction = 0.6"));
+    folder.done("batch c.ndjson --set tilt=1 -o c.out");
+    assert!(folder.text("c.out").contains("with tilt = 1"));
+    for (line, words) in [
+        ("check a.json --set fricton=0.5", "the nearest known key is `friction`"),
+        ("check a.json --set blocks.lintl.weight=1", "did you mean \"lintel\"?"),
+        ("check a.json --set friction", "such as friction=0.5"),
+        ("check a.json --set friction=1 --certificate p.json", "cannot be used with"),
+    ] {
+        let Ran(code, errors) = folder.run(line);
+        assert!(code == 2 && errors.contains(words), "{line}: {errors}");
+    }
+    let Ran(_, errors) = folder.run("batch c.ndjson -o c.csv");
+    assert!(errors.contains("1 scene: 1 stands"), "{errors}");
+    folder.done("batch c.ndjson --margins --fields verdict -o m.ndjson");
+    let line = folder.text("m.ndjson");
+    assert!(line.contains("\"intervals\"") && !line.contains("mechanisms"), "{line}");
+}

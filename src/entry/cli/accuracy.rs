@@ -10,6 +10,7 @@ use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::progress::{BarVisibility, Progress};
 use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
+use crate::entry::request::AnalysisArgs;
 use crate::mechanics::scene::Scene;
 use crate::pictures::chart::ChartError;
 use crate::pictures::output::file::Existing;
@@ -50,7 +51,7 @@ impl Accuracy {
         }
         let scenes: Vec<&Path> = self.scenes.iter().map(PathBuf::as_path).collect();
         destination::refuse_overwrites(&self.output, &scenes).map_err(|c| vec![c])?;
-        let sources = source::read(&self.scenes, None, None)?;
+        let sources = source::read(&self.scenes, None, &AnalysisArgs::default())?;
         // A scene without a title gets the name of its file, without the extension, as its title.
         let scenes: Vec<Scene> = sources
             .iter()

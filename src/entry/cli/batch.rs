@@ -23,7 +23,7 @@ use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::{AnalysisArgs, MarginArgs};
 use crate::mechanics::analysis::{Analysis, Options, Verdict, verdicts};
 use crate::mechanics::batch::{Capacity, Record, Records, in_order};
-use crate::mechanics::scene::{Code, Problem, Scene, isolate};
+use crate::mechanics::scene::{Code, Problem, isolate};
 use crate::pictures::output::file::Existing;
 use crate::pictures::output::fonts::Fonts;
 use crate::products::figure;
@@ -56,7 +56,7 @@ pub(crate) struct Batch {
     #[arg(long, requires = "output")]
     resume: bool,
     /// The fields of a result to write, such as verdict,frames.total_force or all; file and line are always written.
-    /// --margins adds frames.margins, --wedging adds frames.only_by_wedging
+    /// --margins adds frames.margins (the motions beyond them are frames.margins.mechanisms), --wedging adds frames.only_by_wedging
     #[arg(long, value_name = "LIST", value_parser = fields, default_value = "scene,verdict")]
     fields: Fields,
     /// Draw every scene into this folder, by default as PNG, 400 pixels wide. A picture is named after the file and
@@ -102,6 +102,7 @@ impl Batch {
         pace.skipped(output.done());
         let mut ending = ExitStatus::Done;
         let mut failed = None;
+        let mut is_closed = false;
         in_order(
             records,
             Capacity::new(self.threads()),
@@ -116,15 +117,19 @@ impl Batch {
                     }
                     Some(Err(complaint)) => Err(complaint),
                 };
-                written.unwrap_or_else(|complaint| {
+                let next = written.unwrap_or_else(|complaint| {
                     failed = Some(complaint);
                     std::ops::ControlFlow::Break(())
-                })
+                });
+                is_closed |= next.is_break();
+                next
             },
         );
         // Write the answers that are still in memory, even after an error: answers from before the error are valid.
         let flushed = output.flush();
-        pace.end();
+        if !is_closed {
+            pace.end();
+        }
         match (failed, flushed) {
             (Some(complaint), _) | (None, Err(complaint)) => Err(vec![complaint]),
             (None, Ok(_)) => Ok(ending),
@@ -200,7 +205,13 @@ impl Batch {
         if self.level.placement {
             fields = fields.with_placement();
         }
-        Ok(SceneWork { level: self.level, margins: self.margins.clone(), fields, form, drawn: drawn.map(Arc::new) })
+        Ok(SceneWork {
+            level: self.level.clone(),
+            margins: self.margins.clone(),
+            fields,
+            form,
+            drawn: drawn.map(Arc::new),
+        })
     }
 
     /// Returns the settings on which the output lines depend. The number of threads and the progress report are not
@@ -271,9 +282,8 @@ impl SceneWork {
             Ok(bytes) => bytes,
             Err(why) => return Ok(self.refused(origin, &[problem(Code::NotReadable, why, "")])),
         };
-        let scene = match Scene::from_slice_after(record.line.map_or(0, |n| n - 1), bytes, self.level.contact_tolerance)
-        {
-            Ok(scene) => scene,
+        let scene = match self.level.read_scene(record.line.map_or(0, |n| n - 1), bytes) {
+            Ok((scene, _)) => scene,
             Err(problems) => return Ok(self.refused(origin, &problems.list)),
         };
         let options = self.options();

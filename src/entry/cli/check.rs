@@ -44,7 +44,7 @@ pub(crate) struct Check {
     verbose: bool,
     /// Write a certificate of the verdicts of one scene: forces or a motion for each frame, which drystone verify or any
     /// other program can check in exact arithmetic
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "set")]
     certificate: Option<PathBuf>,
     /// Exit with 0 for every verdict; for wrong input, the exit code is still 2
     #[arg(long)]
@@ -59,7 +59,7 @@ impl Check {
         for file in source::foreign_files(&self.scenes)? {
             terminal.note(&format!("{}: left out, because it has no key \"drystone\"", source::name(&file)));
         }
-        let outcomes = source::read_each(&self.scenes, self.what.frame, self.what.level.contact_tolerance)?;
+        let outcomes = source::read_each(&self.scenes, self.what.frame, &self.what.level)?;
         // For a single file, the JSON may have several lines. For several files, each file gets one line of JSON.
         let layout = if outcomes.len() == 1 { Layout::Lines } else { Layout::OneLine };
         if self.certificate.is_some() && outcomes.len() != 1 {

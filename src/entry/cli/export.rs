@@ -45,7 +45,7 @@ impl Export {
             destination::refuse_overwrites(&[file.to_owned()], &[&self.scene])?;
         }
         let scenes = [self.scene.clone()];
-        let sources = source::read(&scenes, Some(self.frame), self.level.contact_tolerance)?;
+        let sources = source::read(&scenes, Some(self.frame), &self.level)?;
         let Some(source) = sources.first() else {
             let why = format!("there is no scene file in {}", self.scene.display());
             return Err(vec![CliError::CommandLine(why)]);

@@ -47,7 +47,7 @@ pub(crate) struct Render {
     pages: bool,
     /// Draw only the outlines, with the problems of a scene that is not valid marked and numbered; the exit code is 2
     /// if there are problems
-    #[arg(long, conflicts_with_all = ["animate", "panels", "pages", "frame", "zoom", "block", "margin", "corners"])]
+    #[arg(long, conflicts_with_all = ["animate", "panels", "pages", "frame", "zoom", "block", "margin", "corners", "set"])]
     broken: bool,
     /// Draw again whenever a scene or the style file changes, until the program is stopped
     #[arg(long)]
@@ -88,16 +88,14 @@ impl Render {
         if self.broken {
             return self.sketched(&scenes, &destination, format, &fonts, terminal);
         }
-        let (options, (sources, mut faults)) = match (
-            self.draw.options(),
-            source::read_apart_from_faults(&scenes, self.frame, self.draw.figure.level.contact_tolerance),
-        ) {
-            (Ok(options), Ok(sources)) => (options, sources),
-            (options, sources) => {
-                let scenes = sources.err().into_iter().flatten();
-                return Err(options.err().into_iter().chain(scenes).collect());
-            }
-        };
+        let (options, (sources, mut faults)) =
+            match (self.draw.options(), source::read_apart_from_faults(&scenes, self.frame, &self.draw.figure.level)) {
+                (Ok(options), Ok(sources)) => (options, sources),
+                (options, sources) => {
+                    let scenes = sources.err().into_iter().flatten();
+                    return Err(options.err().into_iter().chain(scenes).collect());
+                }
+            };
         let joins = self.joins(scenes.len(), &destination);
         if sources.is_empty() || (joins && !faults.is_empty()) {
             return Err(faults);

@@ -45,7 +45,8 @@ pub(crate) struct Report {
     /// Write an index and a page for each scene into the folder OUT
     #[arg(long)]
     split: bool,
-    /// Report what changed from the first SCENE to the second: two files, or two folders with files of the same names
+    /// Report what changed from the first SCENE to the second: two files, or two folders with files of the same names; or
+    /// from one SCENE as written to the same SCENE with --set
     #[arg(long, conflicts_with = "accuracy_study")]
     compare: bool,
     /// Compute all margins; by default only those of loads, friction and tilt
@@ -296,8 +297,10 @@ impl Report {
     fn read(&self, task: &Task) -> Result<Vec<(Source, String)>, InvalidFiles> {
         let mut read = Vec::new();
         let mut wrong = Vec::new();
-        for path in task.paths() {
-            match source::with_text(path, self.level.contact_tolerance) {
+        let as_written = AnalysisArgs { set: Vec::new(), ..self.level.clone() };
+        for (side, path) in task.paths().into_iter().enumerate() {
+            let is_as_written = self.compare && side == 0 && self.scenes.len() == 1;
+            match source::with_text(path, if is_as_written { &as_written } else { &self.level }) {
                 Ok(source) => read.push(source),
                 Err(complaint) => wrong.push((refused(path, &complaint), complaint)),
             }

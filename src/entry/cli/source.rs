@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::entry::cli::error::CliError;
-use crate::entry::request::FrameChoice;
+use crate::entry::request::{AnalysisArgs, FrameChoice};
 use crate::mechanics::scene::{Scene, isolate};
 use crate::products::snapshot::discovery::looks_like_scene;
 
@@ -32,13 +32,14 @@ impl Source {
 }
 
 /// Reads all scenes. If any file cannot be read or is not a valid scene, returns the errors of all such files. With
-/// `frame`, each scene keeps only this frame. A `tolerance` in metres replaces the contact tolerances of the scenes.
+/// `frame`, each scene keeps only this frame. `level` has the contact tolerance and
+/// the values that replace those of the scenes.
 pub(crate) fn read(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
-    tolerance: Option<f64>,
+    level: &AnalysisArgs,
 ) -> Result<Vec<Source>, Vec<CliError>> {
-    match read_apart_from_faults(paths, frame, tolerance)? {
+    match read_apart_from_faults(paths, frame, level)? {
         (sources, faults) if faults.is_empty() => Ok(sources),
         (_, faults) => Err(faults),
     }
@@ -49,11 +50,11 @@ pub(crate) fn read(
 pub(crate) fn read_apart_from_faults(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
-    tolerance: Option<f64>,
+    level: &AnalysisArgs,
 ) -> Result<(Vec<Source>, Vec<CliError>), Vec<CliError>> {
     let mut sources = Vec::new();
     let mut complaints = Vec::new();
-    for (_, source) in read_each(paths, frame, tolerance)? {
+    for (_, source) in read_each(paths, frame, level)? {
         match source {
             Ok(source) => sources.push(source),
             Err(complaint) => complaints.push(complaint),
@@ -71,14 +72,14 @@ pub(crate) type ReadResult = (PathBuf, Result<Source, CliError>);
 pub(crate) fn read_each(
     paths: &[PathBuf],
     frame: Option<FrameChoice>,
-    tolerance: Option<f64>,
+    level: &AnalysisArgs,
 ) -> Result<Vec<ReadResult>, CliError> {
     let paths = files(paths)?;
     if paths.iter().filter(|p| *p == Path::new("-")).count() > 1 {
         return Err(CliError::CommandLine("standard input (-) can be read only once".into()));
     }
     let outcome = |path: PathBuf| {
-        let source = with_text(&path, tolerance).and_then(|(mut source, _)| {
+        let source = with_text(&path, level).and_then(|(mut source, _)| {
             if let Some(frame) = frame {
                 source.scene = frame.of(&source.scene, &source.name()).map_err(CliError::NoSuchFrame)?;
             }
@@ -143,11 +144,11 @@ pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, CliError> {
     read.map_err(|error| CliError::not_read(name(path), error))
 }
 
-/// Reads one scene. Returns the scene together with the text of its file.
-pub(crate) fn with_text(path: &Path, tolerance: Option<f64>) -> Result<(Source, String), CliError> {
+/// Reads one scene. Returns the scene together with the text of its file, with the values that `--set` changes.
+pub(crate) fn with_text(path: &Path, level: &AnalysisArgs) -> Result<(Source, String), CliError> {
     let bytes = bytes(path)?;
-    let scene = isolated(path, || Scene::from_slice_within(&bytes, tolerance))?;
-    let scene = scene.map_err(|problems| CliError::Scene { name: name(path), problems })?;
+    let read = isolated(path, || level.read_scene(0, &bytes))?;
+    let (scene, bytes) = read.map_err(|problems| CliError::Scene { name: name(path), problems })?;
     let source = Source { path: path.to_owned(), scene };
     let text = String::from_utf8_lossy(&bytes);
     Ok((source, text.trim_start_matches('\u{feff}').to_owned()))

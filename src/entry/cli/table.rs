@@ -101,6 +101,9 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<
         page.words(&heading(&scene.title, MAX_SCENE_TITLE));
     }
     page.end();
+    if !scene.set.is_empty() {
+        page.line(&format!("  with {}", scene.set.join(", ")));
+    }
     let has_robots = analysis.frames.iter().any(|f| !f.robots.is_empty());
     let columns = COLUMN_HEADS.len() - usize::from(!has_robots);
     let heads: Vec<String> = COLUMN_HEADS[..columns].iter().map(|h| (*h).to_owned()).collect();

@@ -12,6 +12,7 @@ use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::page::Page;
 use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
+use crate::entry::request::AnalysisArgs;
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::mechanics::certificate::{Certificate, Checked};
 use crate::pictures::output::file::Existing;
@@ -43,7 +44,7 @@ impl Verify {
             CliError::CommandLine(format!("{shown} is not a certificate of drystone check --certificate: {why}"))
         })?;
         if let Some(scene) = &self.scene {
-            let own = source::read(std::slice::from_ref(scene), None, None);
+            let own = source::read(std::slice::from_ref(scene), None, &AnalysisArgs::default());
             let own = own.map_err(|mut errors| errors.swap_remove(0))?;
             let analysis = Analysis::new(&own[0].scene);
             let differs = certificate.differs_from(&Certificate::new(&analysis, hash(&bytes_of(scene)?)));

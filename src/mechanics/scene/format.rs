@@ -12,6 +12,8 @@ mod lines;
 mod load;
 mod map;
 mod question;
+#[cfg(any(feature = "cli", feature = "wasm"))]
+pub(super) mod setting;
 mod step;
 mod unit;
 
@@ -28,6 +30,8 @@ pub(crate) use lines::Lines;
 pub use load::{BlockSide, CaseEntry, DepthEntry, LoadEntry, PressureEntry};
 pub use map::Map;
 pub use question::MovementEntry;
+#[cfg(any(feature = "cli", feature = "wasm"))]
+pub(crate) use setting::Setting;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
 pub use unit::{ForceUnit, LengthUnit, UnitsEntry};
 

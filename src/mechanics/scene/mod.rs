@@ -19,6 +19,8 @@ mod steps;
 mod problem;
 mod question;
 mod reading;
+#[cfg(any(feature = "cli", feature = "wasm"))]
+mod changed;
 mod resolution;
 mod rounding;
 pub mod shape;
@@ -32,6 +34,8 @@ pub use body::{
 };
 pub use collision::Penetration;
 pub(crate) use fault::isolate;
+#[cfg(any(feature = "cli", feature = "wasm"))]
+pub(crate) use format::Setting;
 #[cfg(feature = "schema")]
 pub use format::schema;
 pub(crate) use heal::size;
@@ -111,6 +115,8 @@ pub struct Scene {
     pub(crate) silenced: Vec<NoteCode>,
     /// The line of the file in which each body begins.
     pub(crate) lines: note::Lines,
+    /// The values of the file that were replaced before it was read, such as `friction=0.5`.
+    pub(crate) set: Vec<String>,
 }
 
 impl Scene {

@@ -33,6 +33,7 @@ codes! {
     NoWeight "no_weight" "blocks that all weigh nothing, without loads",
     ImplausibleSize "implausible_size" "blocks whose typical size is above 100 m or below 0.1 mm",
     BelowGround "below_ground" "blocks that all lie below the ground, or all beside it and above nothing",
+    SetUnused "set_unused" "a value of `--set` that changes nothing",
     AngleRadians "angle_radians" "an angle that is probably a multiple of 15° given in radians, with three decimals or more",
 }
 

@@ -183,6 +183,7 @@ impl<'f> Resolution<'f> {
             notes: Vec::new(),
             silenced: silenced(findings, self.file),
             lines: Lines::default(),
+            set: Vec::new(),
         })
     }
 

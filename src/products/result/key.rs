@@ -222,6 +222,7 @@ pub static KEYS: &[Key] = &[
     key("drystone", Text, "version of the program"),
     key("file", Text, "path of the scene file as given; for a file in a given folder, the path of the folder and the name of the file; `-` for standard input").when("from the command line"),
     key("scene", Text, "title of the scene; empty if the scene has none"),
+    key("set", NameList, "values of the scene file that were replaced, such as `friction=0.5`; the title states them too").when("with `--set`"),
     key("contact_tolerance", Object, "largest gap at which edges still touch, and how corners were moved").of(&[
         key("gap", Number, "edges at most this far apart touch; 0 if all bodies consist of lattice cells").unit("m"),
         key("from", Word(&["lattice", "given", "decimals", "significant_digits", "float32", "size", "noise"]), "source of the tolerance: `lattice`, cells touch exactly; `given`, the scene file or the command line; `decimals`, `significant_digits`, `float32`, how coordinates are written; `size`, `noise`, the size of the scene"),

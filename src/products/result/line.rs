@@ -127,6 +127,20 @@ impl Fields {
         self
     }
 
+    /// Returns the selected paths. `frames.margins` selects the margins without their motions, which are long and must
+    /// be selected by their own names.
+    fn spelled(&self) -> Vec<Vec<&'static str>> {
+        let margins = KEYS.iter().find(|key| key.name == "frames").map_or(&[][..], |key| key.keys);
+        let margins = margins.iter().find(|key| key.name == "margins").map_or(&[][..], |key| key.keys);
+        let short = margins.iter().filter(|key| !matches!(key.name, "mechanisms" | "excluded"));
+        let short: Vec<Vec<&'static str>> = short.map(|key| vec!["frames", "margins", key.name]).collect();
+        let spelled = self.chosen.iter().flat_map(|path| match path[..] {
+            ["frames", "margins"] => short.clone(),
+            _ => vec![path.clone()],
+        });
+        spelled.collect()
+    }
+
     fn are_all(&self) -> bool {
         self.chosen.iter().any(|path| path == &["all"])
     }
@@ -188,8 +202,9 @@ pub fn line_of(origin: &Origin, analysis: &Analysis, picture: &PictureOutcome, f
             whole = whole.with_blocks(&analysis.scene);
         }
         let whole = serde_json::to_value(whole).unwrap_or_default();
+        let spelled = fields.spelled();
         for name in NAMES.iter() {
-            let chosen = below(&fields.chosen, name.word);
+            let chosen = below(&spelled, name.word);
             match name.word {
                 _ if chosen.is_empty() => {}
                 "verdict" => put(&mut out, "verdict", &Value::from(verdict)),

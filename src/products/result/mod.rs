@@ -141,6 +141,8 @@ struct Result<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<&'a str>,
     scene: &'a str,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    set: &'a [String],
     contact_tolerance: Tolerance,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<NoteEntry<'a>>,
@@ -256,6 +258,7 @@ impl<'a> Result<'a> {
             drystone: env!("CARGO_PKG_VERSION"),
             file: None,
             scene: &scene.title,
+            set: &scene.set,
             contact_tolerance: Tolerance::new(scene),
             notes: analysis.notes.iter().map(NoteEntry::new).collect(),
             frames: (frames.enumerate())

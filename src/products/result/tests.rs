@@ -44,6 +44,7 @@ fn scene() -> Scene {
         tolerance: Closeness::new(3.0, 3.0),
         healed: Healed::default(),
         misfit: 0.0,
+        set: Vec::new(),
         penetrations: Vec::new(),
         ground: vec![],
         blocks: vec![block("a"), block("b")],

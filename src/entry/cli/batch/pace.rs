@@ -9,6 +9,7 @@ use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::between;
 use crate::mechanics::analysis::Verdict;
+use crate::products::wording::number::counted as in_words;
 use crate::products::wording::verdict::counted;
 
 /// The default interval between two reports on a terminal.
@@ -89,11 +90,8 @@ impl<'t> BatchProgress<'t> {
         }
     }
 
-    /// Prints the totals of this run, if progress is reported.
+    /// Prints the totals of this run, with the time if progress is reported.
     pub fn end(&self) {
-        if self.every.is_none() {
-            return;
-        }
         let seconds = self.start.elapsed().as_secs_f64();
         let counts: Vec<String> = (self.counts.iter().enumerate())
             .filter(|(_, count)| **count > 0)
@@ -104,8 +102,11 @@ impl<'t> BatchProgress<'t> {
             .collect();
         let done: usize = self.counts.iter().sum();
         let rate = done as f64 / seconds.max(1e-9);
+        let pace = self.every.map(|_| format!(" in {seconds:.1} s, {rate:.0} a second"));
         self.terminal.note(&format!(
-            "{done} scenes in {seconds:.1} s, {rate:.0} a second: {}",
+            "{}{}: {}",
+            in_words(done, "scene"),
+            pace.unwrap_or_default(),
             if counts.is_empty() { "nothing to do".to_owned() } else { counts.join(", ") }
         ));
     }

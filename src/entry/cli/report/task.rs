@@ -44,8 +44,11 @@ impl Report {
 
     fn pairs(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
         let refuse = |why: &str| vec![CliError::from(why)];
-        let [a, b] = self.scenes.as_slice() else {
-            return Err(refuse("--compare needs two scenes, or two folders of scenes"));
+        let (a, b) = match self.scenes.as_slice() {
+            [a, b] => (a, b),
+            // The scenes are compared with themselves as the option `set` changes them.
+            [both] if !self.level.set.is_empty() => (both, both),
+            _ => return Err(refuse("--compare needs two scenes, two folders of scenes, or one of these and --set")),
         };
         match (a.is_dir(), b.is_dir()) {
             (false, false) => Ok((vec![Task::Two([a.clone(), b.clone()])], Vec::new())),

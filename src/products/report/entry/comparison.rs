@@ -5,7 +5,9 @@
 //! 2. A force counts as changed if its difference between the scenes is more than 5 % of the larger of the two forces.
 //! 3. Numbers in tables are in the units of the scenes. If the scenes have different units, these numbers are in metres
 //!    and newtons, except margins, and a note says so.
-//! 4. Both figures mark changed forces, changed blocks (outline, position, weight, friction, loads, robots), and blocks
+//! 4. The first page is about the step that matters most, see [`governing`], and lists what differs between the scenes.
+//!    Of the other steps, only those that differ have figures.
+//! 5. Both figures mark changed forces, changed blocks (outline, position, weight, friction, loads, robots), and blocks
 //!    that only one scene has.
 
 mod difference;
@@ -13,7 +15,7 @@ mod difference;
 use difference::{Settings, Shapes};
 
 use super::hover::onto_scene;
-use super::row::file_name;
+use super::row::{file_name, headline_words};
 use super::{Entry, Figure, File, Grid, ReportOptions, Row, Section, SheetPart, bullet, sheet};
 use crate::geometry::Point;
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict};
@@ -22,7 +24,7 @@ use crate::mechanics::scene::format::UnitsEntry;
 use crate::pictures::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
 use crate::products::figure::{self, ForceChange, Kind, count_in_words, noise, shared_forces};
 use crate::products::wording::failure::pair;
-use crate::products::wording::number::{counted, digits, letter, percent, tenths};
+use crate::products::wording::number::{counted, digits, letter, listed, percent, tenths};
 use crate::products::wording::verdict::{self, plain};
 use crate::text::line;
 
@@ -64,52 +66,88 @@ pub fn compared(sides: [Side<'_>; 2], report_options: &ReportOptions) -> Entry {
 }
 
 /// Compares the steps of the two scenes in their order. Returns one sentence for each step, and the sections of the
-/// report.
+/// report: first the step that matters most, with all that differs between the scenes, then the other steps that differ.
 fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, Vec<Section>) {
     let [was, is] = sides;
     let options = sheet::options(report_options);
-    let mut figures = sides.map(|side| {
-        let panels = figure::panels(side.analysis, Kind::Forces, &options);
-        panels.into_iter().map(Some).collect::<Vec<_>>()
-    });
     let counts = sides.map(|side| side.analysis.frames.len());
-    let mut sections = Vec::new();
+    let mut notes = Vec::new();
     if counts[0] != counts[1] {
         let [a, b] = counts.map(|n| counted(n, "step"));
-        let words = format!("The first has {a}, the second {b}; steps are compared in their order.");
-        sections.push(note(is, words));
+        notes.push(format!("The first has {a}, the second {b}; steps are compared in their order."));
     }
     if common_units(sides).is_none() {
         let words = "The two scenes have different units. The tables that compare them are in metres and newtons; \
                      figures, sentences and margins are in the units of their scene.";
-        sections.push(note(is, words.to_owned()));
+        notes.push(words.to_owned());
     }
-    let mut stated = Vec::new();
+    let pairs: Vec<Pair<'_>> = (0..counts[0].min(counts[1])).map(|number| Pair::new(sides, number)).collect();
+    let mut stated: Vec<String> = pairs.iter().map(Pair::sentence).collect();
+    let governing = governing(&pairs);
     let several = counts[0].max(counts[1]) > 1;
-    for number in 0..counts[0].max(counts[1]) {
-        let drawn = [0, 1].map(|side: usize| figures[side].get_mut(number).and_then(Option::take));
-        let (sentence, mut section) = match drawn {
-            [Some(a), Some(b)] => both([was, is], number, [a, b], report_options),
-            [a, b] => {
-                let (side, drawing) = if a.is_some() { (was, a) } else { (is, b) };
-                unpaired_step(side, number, drawing, only_in(counts, number))
-            }
-        };
-        // Set the letter here: `sheet::empty` considers only one scene, but letters are needed if either scene has
-        // several steps.
-        section.letter = if several { letter(number) } else { String::new() };
+    let shown = pairs.iter().filter(|pair| pair.differs() && pair.number != governing).map(|pair| pair.number);
+    let shown: Vec<usize> = [governing].into_iter().chain(shown).collect();
+    let drawn = sides.map(|side| figure::panels_of(side.analysis, Kind::Forces, &options, &shown));
+    let [before, after] = drawn.map(Vec::into_iter);
+    let mut sections = Vec::new();
+    for ((number, a), b) in shown.iter().zip(before).zip(after) {
+        let pair = &pairs[*number];
+        let mut section = sheet::empty(&is.analysis.scene, *number, pair.frames[1].verdict);
+        section.parts.push(SheetPart::Text(pair.sentence()));
+        let is_first = *number == governing;
+        if is_first {
+            section.parts.extend(notes.drain(..).map(SheetPart::Note));
+        }
+        section.parts.extend(pair.parts([a, b], is_first, report_options));
+        if is_first && several {
+            section.parts.push(SheetPart::Table(table(&pairs)));
+        }
+        section.parts.push(SheetPart::Table(pair.forces.grid(&is.analysis.scene, pair.units)));
+        sections.push(section);
+    }
+    for number in counts[0].min(counts[1])..counts[0].max(counts[1]) {
+        let side = if number < counts[0] { was } else { is };
+        let drawing = figure::panels_of(side.analysis, Kind::Forces, &options, &[number]).pop();
+        let (sentence, section) = unpaired_step(side, number, drawing, only_in(counts, number));
         stated.push(sentence);
         sections.push(section);
+    }
+    for section in &mut sections {
+        // `sheet::empty` considers only one scene, but letters are needed if either scene has several steps.
+        let number = section.letter.clone();
+        section.letter = if several { number } else { String::new() };
     }
     (stated, sections)
 }
 
-/// Makes a section without a title, which contains only a note with the text `words`.
-fn note(side: Side<'_>, words: String) -> Section {
-    let mut section = sheet::empty(&side.analysis.scene, 0, side.analysis.verdict());
-    (section.letter, section.title) = (String::new(), String::new());
-    section.parts.push(SheetPart::Note(words));
-    section
+/// Returns the index of the step that matters most: the first whose verdict differs, otherwise the first that does not
+/// stand, otherwise the last that differs.
+fn governing(pairs: &[Pair<'_>]) -> usize {
+    let verdicts = |pair: &Pair<'_>| pair.frames.map(|frame| frame.verdict);
+    let changed = pairs.iter().find(|pair| verdicts(pair)[0] != verdicts(pair)[1]);
+    let falls = || pairs.iter().find(|pair| verdicts(pair)[1] != Verdict::Stable);
+    let last = || pairs.iter().rev().find(|pair| pair.differs());
+    changed.or_else(falls).or_else(last).map_or(pairs.len() - 1, |pair| pair.number)
+}
+
+/// Makes the table of all steps that both scenes have.
+fn table(pairs: &[Pair<'_>]) -> Grid {
+    let mut grid = Grid::new("All steps", &["step", "first", "second", "what differs"]);
+    for pair in pairs {
+        let title = pair.sides[1].analysis.scene.frames[pair.number].title.as_str();
+        let verdict = |side: usize| {
+            let words = headline_words(&pair.sides[side].analysis.scene, pair.number, pair.frames[side]);
+            let verdict = plain(pair.frames[side].verdict);
+            if words.is_empty() { verdict.to_owned() } else { words }
+        };
+        let differs = match pair.sentence().split_once("; ") {
+            Some((_, differs)) if pair.differs() => capital(differs),
+            _ => "Nothing.".to_owned(),
+        };
+        let title = line(&format!("({}) {title}", letter(pair.number)));
+        grid.add("", [title, line(&verdict(0)), line(&verdict(1)), differs]);
+    }
+    grid
 }
 
 /// Returns the units of both scenes, or `None` if the units of the two scenes differ.
@@ -119,12 +157,13 @@ fn common_units(sides: [Side<'_>; 2]) -> Option<UnitsEntry> {
     (sizes[0] == sizes[1]).then_some(is)
 }
 
-/// Makes the figure of one scene. Its caption has the path of the scene file and the verdict.
+/// Makes the figure of one scene. Its caption has the path of the scene file, its changed values, and the verdict.
 fn plate(side: Side<'_>, frame_analysis: &FrameAnalysis, drawing: Drawing) -> Figure {
-    let scale = "this figure has its own scales for arrows and colours";
-    let name = line(side.file.name);
+    let set = &side.analysis.scene.set;
+    let with = if set.is_empty() { String::new() } else { format!(" with {}", listed(set)) };
+    let name = line(&format!("{}{with}", file_name(side.file.name)));
     Figure {
-        caption: format!("{name}: {}; {scale}.", plain(frame_analysis.verdict)),
+        caption: format!("{name}: {}.", plain(frame_analysis.verdict)),
         drawing,
         dark: None,
         touches: Vec::new(),
@@ -147,79 +186,117 @@ fn unpaired_step(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &
     (why.to_owned(), section)
 }
 
-/// Compares a step that both scenes have. Returns a sentence about the changes, and the report section for the step.
-fn both(
-    sides: [Side<'_>; 2],
+/// A step that both scenes have.
+struct Pair<'a> {
+    sides: [Side<'a>; 2],
+    /// The index of the step.
     number: usize,
-    drawings: [Drawing; 2],
-    report_options: &ReportOptions,
-) -> (String, Section) {
-    let [was, is] = sides;
-    let [then, now] = sides.map(|side| &side.analysis.frames[number]);
-    let units = common_units(sides).unwrap_or_default();
-    let shape = Shapes::new(sides, number, units);
-    let forces = SharedForces::new(sides, number);
-    let settings = Settings::new(sides, number, units);
-    let sentence = changes_sentence([then, now], &shape, &settings, &forces);
-    let sentence = format!("{}.", capital(&line(&sentence)));
-    let mut section = sheet::empty(&is.analysis.scene, number, now.verdict);
-    section.parts.push(SheetPart::Text(sentence.clone()));
-    for (side, frame_analysis, scene) in [("First", then, &was.analysis.scene), ("Second", now, &is.analysis.scene)] {
-        let described = line(&verdict::sentence(scene, frame_analysis));
-        section.parts.push(SheetPart::Note(format!("{side}: {described}")));
-    }
-    let grids = [
-        totals(then, now, units),
-        margins(sides, number),
-        shape.grid(),
-        settings.grid(),
-        forces.grid(&is.analysis.scene, units),
-    ];
-    let colour = report_options.theme.motion;
-    let [loaded, now_loaded] = settings.blocks;
-    let outlines = [[shape.gone_or_changed, loaded].concat(), [shape.new_or_changed, now_loaded].concat()];
-    let rings = [0, 1].map(|side: usize| {
-        let changed = forces.changed();
-        changed.map(|f| f.contacts[side].resultant.at).collect::<Vec<Point>>()
-    });
-    let mut plates = Vec::new();
-    for (side, (frame_analysis, mut drawing)) in [then, now].into_iter().zip(drawings).enumerate() {
-        let scene = &sides[side].analysis.scene;
-        mark(&mut drawing, scene, &outlines[side], &rings[side], colour);
-        plates.push(plate(sides[side], frame_analysis, drawing));
-    }
-    if let Some(last) = plates.last_mut() {
-        last.caption.push_str(
-            " Outlined in both: blocks that only one has, or whose outline, place, weight, friction, load or robot \
-             differs; ringed: forces that changed by over 5 %.",
-        );
-    }
-    section.parts.push(SheetPart::Figures(plates));
-    section.parts.extend(grids.map(SheetPart::Table));
-    (sentence, section)
+    frames: [&'a FrameAnalysis; 2],
+    units: UnitsEntry,
+    shape: Shapes,
+    settings: Settings,
+    forces: SharedForces<'a>,
 }
 
-/// Returns one sentence, without a full stop, with the two verdicts and all changes of a step.
-fn changes_sentence(
-    [then, now]: [&FrameAnalysis; 2],
-    shape: &Shapes,
-    settings: &Settings,
-    forces: &SharedForces<'_>,
-) -> String {
-    let mut stated = vec![match (then.verdict, now.verdict) {
-        (Verdict::Stable, Verdict::Stable) => "both stand".to_owned(),
-        (Verdict::Unstable, Verdict::Unstable) => "both fall".to_owned(),
-        (Verdict::Undecided, Verdict::Undecided) => "both are undecided".to_owned(),
-        (a, b) => format!("the first {}, the second {}", a.verb(), b.verb()),
-    }];
-    let mut differs = shape.stated();
-    if differs.is_empty() {
-        differs.push("the blocks and their places are the same".into());
+impl<'a> Pair<'a> {
+    fn new(sides: [Side<'a>; 2], number: usize) -> Pair<'a> {
+        let units = common_units(sides).unwrap_or_default();
+        Pair {
+            sides,
+            number,
+            frames: sides.map(|side| &side.analysis.frames[number]),
+            units,
+            shape: Shapes::new(sides, Some(number), units),
+            settings: Settings::new(sides, number, units),
+            forces: SharedForces::new(sides, number),
+        }
     }
-    stated.extend(differs);
-    stated.extend(settings.stated());
-    stated.push(count_in_words(forces.changed().count(), forces.all.len()));
-    stated.join("; ")
+
+    /// True if the inputs, the verdict or a force of the step differ.
+    fn differs(&self) -> bool {
+        self.frames[0].verdict != self.frames[1].verdict
+            || !self.shape.stated().is_empty()
+            || !self.settings.is_empty()
+            || self.forces.changed().next().is_some()
+    }
+
+    /// Returns one sentence with the two verdicts and all changes.
+    fn sentence(&self) -> String {
+        let mut stated = vec![match self.frames.map(|frame| frame.verdict) {
+            [Verdict::Stable, Verdict::Stable] => "both stand".to_owned(),
+            [Verdict::Unstable, Verdict::Unstable] => "both fall".to_owned(),
+            [Verdict::Undecided, Verdict::Undecided] => "both are undecided".to_owned(),
+            [a, b] => format!("the first {}, the second {}", a.verb(), b.verb()),
+        }];
+        let mut differs = self.shape.stated();
+        if differs.is_empty() {
+            differs.push("the blocks and their places are the same".into());
+        }
+        stated.extend(differs);
+        stated.extend(self.settings.stated());
+        stated.push(count_in_words(self.forces.changed().count(), self.forces.all.len()));
+        format!("{}.", capital(&line(&stated.join("; "))))
+    }
+
+    /// Returns the figures and tables of the step. On the first page of a report, `is_first`, the tables have all that
+    /// differs between the two scenes.
+    fn parts(&self, drawings: [Drawing; 2], is_first: bool, report_options: &ReportOptions) -> Vec<SheetPart> {
+        let mut parts = Vec::new();
+        for (which, side) in [("First", 0), ("Second", 1)] {
+            // That a structure stands is in the sentence above.
+            if self.frames[side].verdict != Verdict::Stable {
+                let described = verdict::sentence(&self.sides[side].analysis.scene, self.frames[side]);
+                parts.push(SheetPart::Note(format!("{which}: {}", line(&described))));
+            }
+        }
+        parts.push(SheetPart::Figures(self.plates(drawings, report_options)));
+        if !is_first {
+            return parts;
+        }
+        let steps = self.sides.map(|side| side.analysis.frames.len());
+        let mut settings = Settings::new(self.sides, self.number, self.units);
+        for number in 0..steps[0].min(steps[1]) {
+            settings.add(Settings::new(self.sides, number, self.units));
+        }
+        let [then, now] = self.frames;
+        parts.extend(
+            [
+                Shapes::new(self.sides, None, self.units).grid(),
+                settings.grid(),
+                margins(self.sides, self.number),
+                totals(then, now, self.units),
+            ]
+            .map(SheetPart::Table),
+        );
+        parts
+    }
+
+    /// Marks in both figures what differs.
+    fn plates(&self, drawings: [Drawing; 2], report_options: &ReportOptions) -> Vec<Figure> {
+        let colour = report_options.theme.motion;
+        let [loaded, now_loaded] = &self.settings.blocks;
+        let outlines =
+            [[&self.shape.gone_or_changed[..], loaded].concat(), [&self.shape.new_or_changed[..], now_loaded].concat()];
+        let mut plates = Vec::new();
+        for (side, mut drawing) in drawings.into_iter().enumerate() {
+            let rings = self.forces.changed().map(|f| f.contacts[side].resultant.at);
+            let (scene, rings) = (&self.sides[side].analysis.scene, rings.collect::<Vec<Point>>());
+            // If every block differs, an outline around each says nothing.
+            let all = outlines[side].len() >= scene.frames[self.number].placed.len();
+            mark(&mut drawing, scene, if all { &[] } else { &outlines[side] }, &rings, colour);
+            plates.push(plate(self.sides[side], self.frames[side], drawing));
+        }
+        if self.differs()
+            && let Some(last) = plates.last_mut()
+        {
+            last.caption.push_str(
+                " Each figure has its own scales for arrows and colours. Outlined in both: blocks that only one has, or \
+                 whose outline, place, weight, friction, load or robot differs, unless all do; ringed: forces that \
+                 changed by over 5 %.",
+            );
+        }
+        plates
+    }
 }
 
 fn capital(words: &str) -> String {

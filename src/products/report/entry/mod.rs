@@ -161,7 +161,8 @@ fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
 /// purpose of a command and the command.
 fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(String, String)> {
     let theme = options.theme_name.as_ref().map_or(String::new(), |theme| format!(" --theme {theme}"));
-    let file = text::shell(name);
+    let set = analysis.scene.set.iter().map(|setting| format!(" --set {}", text::shell(setting)));
+    let file = text::shell(name) + &set.collect::<String>();
     let command = |kind: &str| format!("drystone render {file} -o figure.svg{kind}{theme}");
     let mut commands = vec![("the figure of forces".to_owned(), command(""))];
     let falls = analysis.frames.iter().any(|f| f.verdict == Verdict::Unstable && !f.mechanism.is_empty());

@@ -33,12 +33,13 @@ pub(super) struct Shapes {
 }
 
 impl Shapes {
-    /// Compares the blocks of the two frames with index `number`. `units` are the units of the values in the
-    /// descriptions of changes.
-    pub fn new(sides: [Side<'_>; 2], number: usize, units: UnitsEntry) -> Shapes {
+    /// Compares the blocks of the two frames with index `number`, or all blocks. `units` are the units of the values in
+    /// the descriptions of changes.
+    pub fn new(sides: [Side<'_>; 2], number: Option<usize>, units: UnitsEntry) -> Shapes {
         let blocks = |side: Side<'_>| -> Vec<(String, usize)> {
             let scene = &side.analysis.scene;
-            let mut placed: Vec<usize> = scene.frames[number].placed.iter().map(|id| id.0).collect();
+            let placed = |number: usize| scene.frames[number].placed.iter().map(|id| id.0).collect();
+            let mut placed: Vec<usize> = number.map_or_else(|| (0..scene.blocks.len()).collect(), placed);
             placed.sort_unstable();
             let named = placed.into_iter().map(|i| (scene.blocks[i].id.clone(), i));
             named.collect()
@@ -185,6 +186,22 @@ impl Settings {
             settings.lines.push([name.to_owned(), a, b]);
         }
         settings
+    }
+
+    /// Adds the differences of another step.
+    pub fn add(&mut self, other: Settings) {
+        self.lines.extend(other.lines);
+        let mut known = Vec::new();
+        self.lines.retain(|line| {
+            !known.contains(line) && {
+                known.push(line.clone());
+                true
+            }
+        });
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.lines.is_empty()
     }
 
     pub fn stated(&self) -> Vec<String> {
