@@ -246,21 +246,23 @@ impl<'t> Place<'t> {
         self.edits(&self.tree.root, "gravity", &turned, &mut Path::default()).unwrap_or_default()
     }
 
-    /// Multiplies the forces and the torques of all loads.
+    /// Multiplies the forces, torques and pressures of all loads that are not fixed.
     fn with_loads(&self, factor: f64) -> Edits {
         let mut edits = Edits::new();
         for load in self.list("loads") {
-            let of = |key| self.entry(load, key).map(|entry| &entry.value);
-            if let Some(force) = of("force")
-                && let Some(parts) = self.numbers(force)
-            {
-                let parts: Vec<String> = parts.iter().map(|part| (part * factor).to_string()).collect();
-                edits.push((force.range.clone(), format!("[{}]", parts.join(", "))));
+            let of = |node, key| self.entry(node, key).map(|entry| &entry.value);
+            if of(load, "fixed").is_some_and(|fixed| matches!(fixed.kind, NodeKind::Flag(true))) {
+                continue;
             }
-            if let Some(torque) = of("torque")
-                && let Some(number) = self.number(torque)
-            {
-                edits.push((torque.range.clone(), (number * factor).to_string()));
+            let pressure = of(load, "pressure");
+            let weight = pressure.and_then(|pressure| of(pressure, "unit_weight"));
+            for amount in [of(load, "force"), of(load, "torque"), pressure, weight].into_iter().flatten() {
+                if let Some(parts) = self.numbers(amount) {
+                    let parts: Vec<String> = parts.iter().map(|part| (part * factor).to_string()).collect();
+                    edits.push((amount.range.clone(), format!("[{}]", parts.join(", "))));
+                } else if let Some(number) = self.number(amount) {
+                    edits.push((amount.range.clone(), (number * factor).to_string()));
+                }
             }
         }
         edits
