@@ -153,6 +153,30 @@ fn an_animated_mechanism_moves_and_all_its_pages_have_the_same_size() {
 }
 
 #[test]
+fn an_animation_shows_what_falls_symmetrically_and_says_if_nothing_moves() {
+    let text = include_str!("../scenes/arch13thin.json");
+    let scene = Scene::from_json(text).expect("a scene");
+    let film = figure::film(&Analysis::new(&scene), Kind::Mechanism, &Options::default(), 2.0);
+    let places = |page: usize| -> Vec<Point> {
+        let picture = all(&film[page].0.items, "picture")[0];
+        let camera = picture.camera.expect("it shows the scene");
+        all(&picture.items, "displaced").into_iter().map(|block| polygon(block, &camera).centroid()).collect()
+    };
+    let (first, last) = (places(0), places(film.len() - 1));
+    let axis = first.iter().map(|p| p.x).sum::<f64>() / first.len() as f64;
+    let lowest = |points: &[Point]| points.iter().map(|p| p.y).fold(0.0, f64::max);
+    assert!(lowest(&last) < 0.8 * lowest(&first), "the crown has come down: {} m", lowest(&last));
+    for point in &last {
+        let image = Point::new(2.0 * axis - point.x, point.y);
+        let nearest = last.iter().map(|other| (other - image).norm()).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 0.02 * lowest(&first), "no block is the mirror image of that at {point}");
+    }
+    let scene = Scene::from_json(drystone::scene::starter()).expect("a scene");
+    let film = figure::film(&Analysis::new(&scene), Kind::Mechanism, &Options::default(), 2.0);
+    assert!(film.iter().all(|(page, _)| drystone::output::svg::write(page).contains("nothing moves")));
+}
+
+#[test]
 fn the_figure_of_a_margin_shows_the_structure_and_its_fall() {
     // A block 1 m wide and 4 m high, too rough to slide, topples at atan(1/4) = 14.04°.
     let text = r#"{ "drystone": 1, "friction": 0.9, "ground": [ { "polygon": [[-5,-1],[6,-1],[6,0],[-5,0]] } ],

@@ -25,7 +25,7 @@ request! {
         look: StyleArgs = StyleArgs::read(given), command(flatten);
         figure: FigureArgs = FigureArgs::read(given), command(flatten);
         /// Show the frames one after the other in a GIF or an animated PNG, each for this many seconds; falling blocks
-        /// move for this time, and then rest for one second
+        /// move for this time along their mechanism, as far as no block enters another, and then rest for one second
         animate: Option<f64> = given.value("animate", seconds),
             arg(long, value_name = "SECONDS", value_parser = seconds);
     }

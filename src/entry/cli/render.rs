@@ -22,7 +22,7 @@ use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::cli::watch;
 use crate::entry::request::FrameChoice;
-use crate::mechanics::analysis::{self, Analysis};
+use crate::mechanics::analysis::{self, Analysis, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::pictures::output::fonts::Fonts;
 use crate::products::figure;
@@ -222,6 +222,10 @@ impl Render {
         let analysis = figure.analysed(&scene, &figure.add_to(*analysis_options, &scene)?, options);
         progress.step();
         let mut summary = summary(&analysis);
+        let falls = analysis.frames.iter().any(|frame| frame.verdict == Verdict::Unstable);
+        if self.draw.animate.is_some() && figure.kind == figure::Kind::Mechanism && !falls {
+            summary.push_str("; nothing moves");
+        }
         let bytes = if self.writes_parts() {
             let parts = self.draw.parts(&analysis, figure.kind, options, self.pages);
             let one = |part| self.draw.picture.bytes(part, format, fonts);

@@ -17,6 +17,7 @@ use crate::geometry::{Bounds, ConvexPieces, Point, Polygon, Vector, overlap, qua
 use crate::mechanics::analysis::Motion;
 use crate::mechanics::scene::{BlockId, Scene};
 use linkage::Linkage;
+use nalgebra::DVector;
 
 /// Least displacement of the fastest point, unit lengths.
 const MIN_DISPLACEMENT: f64 = 0.35;
@@ -25,6 +26,12 @@ const MIN_DISPLACEMENT: f64 = 0.35;
 const MIN_DISPLACEMENT_SHARE: f64 = 0.045;
 /// Largest rotation of a block, rad (20°).
 const MAX_ROTATION: f64 = 0.35;
+/// The largest displacement of a point in an animation, as a fraction of the diagonal of the group, and the largest
+/// rotation of a block, rad (75°).
+const FAR_SHARE: f64 = 0.6;
+const FAR_ROTATION: f64 = 1.3;
+/// Number of steps of the path in an animation.
+const FAR_STEPS: usize = 60;
 /// Number of positions along the path at which overlaps are measured.
 const TESTED_POSITIONS: u32 = 8;
 /// Largest number of reductions of the amplitude while blocks overlap, and the smallest factor of one reduction.
@@ -97,6 +104,22 @@ struct Part {
     linkage: Linkage,
     /// The displacement in metres of a point of speed 1 at the end of the path.
     amplitude: f64,
+    /// The positions of the bodies at equal steps of a long path; empty for a path that is only as long as needed to see
+    /// how the fall begins.
+    way: Vec<DVector<f64>>,
+}
+
+impl Part {
+    /// Returns the displacement of each block. `share` is the position on the path, from 0 to 1.
+    fn displaced(&self, share: f64) -> Vec<(BlockId, Displacement)> {
+        let Some(last) = self.way.len().checked_sub(1).filter(|last| *last > 0) else {
+            return self.linkage.displaced(share * self.amplitude);
+        };
+        let place = share * last as f64;
+        let before = (place.floor() as usize).min(last - 1);
+        let between = place - before as f64;
+        self.linkage.placed(&(&self.way[before] * (1.0 - between) + &self.way[before + 1] * between))
+    }
 }
 
 impl Course {
@@ -105,6 +128,7 @@ impl Course {
         let parts = fall.parts().into_iter().map(|motions| Part {
             amplitude: amplitude(fall.scene, &motions, unit),
             linkage: Linkage::new(fall, &motions),
+            way: Vec::new(),
         });
         let mut course = Course { parts: parts.collect(), blocks: fall.scene.blocks.len() };
         course.stop_before_overlaps(fall);
@@ -116,6 +140,45 @@ impl Course {
         self.parts.iter().map(|part| part.amplitude).fold(0.0, f64::max)
     }
 
+    /// Computes paths on which the blocks move until it is clear what falls, as far as no block enters another and no
+    /// joint opens. A path that would be shorter than that of [`Course::new`] stays as it is there.
+    pub fn far(fall: &Fall<'_>, unit: f64) -> Course {
+        let near = Course::new(fall, unit);
+        let moving = fall.moving().count();
+        if moving > MAX_TESTED_BLOCKS {
+            return near;
+        }
+        let parts = near.parts.iter().zip(fall.parts()).map(|(part, motions)| {
+            let amplitude = far_amplitude(fall.scene, &motions).max(part.amplitude);
+            Part { linkage: part.linkage.clone(), amplitude, way: part.linkage.way(amplitude, FAR_STEPS) }
+        });
+        let mut far = Course { parts: parts.collect(), blocks: near.blocks };
+        let bodies = solid_bodies(fall);
+        for step in 1..=FAR_STEPS {
+            // The positions after this step; a part whose path has ended stays there.
+            let mut displaced = vec![None; far.blocks];
+            for part in &far.parts {
+                let poses = &part.way[step.min(part.way.len() - 1)];
+                for (block, displacement) in part.linkage.placed(poses) {
+                    displaced[block.0] = Some(displacement);
+                }
+            }
+            let blocks = overlapping(&bodies, &displaced);
+            for part in &mut far.parts {
+                if part.linkage.blocks().any(|block| blocks.contains(&block)) {
+                    part.way.truncate(step);
+                }
+            }
+        }
+        for (part, near) in far.parts.iter_mut().zip(near.parts) {
+            let reached = part.amplitude * (part.way.len() - 1) as f64 / FAR_STEPS as f64;
+            if reached < near.amplitude {
+                *part = near;
+            }
+        }
+        far
+    }
+
     /// Returns the displacement of each block, indexed by block; `None` for a block at rest. `share` is the position on
     /// the path, from 0 (original position) to 1 (end). The list is empty if no block moves.
     pub fn at(&self, share: f64) -> Vec<Option<Displacement>> {
@@ -124,7 +187,7 @@ impl Course {
         }
         let mut displaced = vec![None; self.blocks];
         for part in &self.parts {
-            for (block, displacement) in part.linkage.displaced(share * part.amplitude) {
+            for (block, displacement) in part.displaced(share) {
                 displaced[block.0] = Some(displacement);
             }
         }
@@ -213,6 +276,16 @@ fn amplitude(scene: &Scene, group: &[Motion], unit: f64) -> f64 {
     let displacement = f64::max(MIN_DISPLACEMENT * unit.min(size), MIN_DISPLACEMENT_SHARE * size);
     let amplitude = displacement / fastest;
     if spin > 0.0 { amplitude.min(MAX_ROTATION / spin) } else { amplitude }
+}
+
+/// Returns the amplitude at the end of the path of an animation.
+fn far_amplitude(scene: &Scene, group: &[Motion]) -> f64 {
+    let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
+    let spin = group.iter().map(|m| m.spin.abs()).fold(0.0, f64::max);
+    let bounds = group.iter().map(|m| scene.blocks[m.block.0].body.polygon.bounds());
+    let size = bounds.reduce(Bounds::union).map_or(0.0, Bounds::diagonal);
+    let amplitude = if fastest > 0.0 { FAR_SHARE * size / fastest } else { 0.0 };
+    if spin > 0.0 { amplitude.min(FAR_ROTATION / spin) } else { amplitude }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::kind::Kind;
 use super::option::Options;
 use super::sheet;
+use super::symmetric::symmetric;
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::pictures::drawing::Drawing;
 
@@ -57,14 +58,15 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
 
 /// Draws the pictures of an animation, all at the same size and scale. Returns each picture with the time in seconds
 /// for which it is shown. Each frame is shown for `seconds`. If the kind shows mechanisms, the blocks of a frame that
-/// falls move during this time, slowly at the beginning and at the end. Their last position is then shown for one more
-/// second.
+/// falls move during this time along its mechanism, until it is clear what falls, as far as no block enters another:
+/// kinematics, not dynamics. They move slowly at the beginning and at the end. Their last position is then shown for one
+/// more second. If a symmetric structure falls by a symmetric motion, its blocks move symmetrically.
 ///
 /// Units: all times are in seconds.
 pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) -> Vec<(Drawing, f64)> {
-    let (analysis, options) = (shown(analysis, kind), kind.options(&analysis.scene, options));
+    let options = kind.options(&analysis.scene, options);
     if !kind.about().needs_elementary_mechanisms {
-        let pages = frame_pages(&analysis, kind, &options, &all_frames(&analysis)).into_iter();
+        let pages = frame_pages(analysis, kind, &options, &all_frames(analysis)).into_iter();
         return pages.map(|page| (page, seconds)).collect();
     }
     let mut steps: Vec<(usize, f64)> = Vec::new();
@@ -80,6 +82,8 @@ pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) ->
         times.extend((0..count).map(|_| (seconds / f64::from(count)).max(0.01)));
         times.push(MOTION_END_SECONDS);
     }
+    let analysis = symmetric(analysis, analysis.elementary());
+    let options = Options { film: true, ..options };
     let pages = sheet::steps(&analysis, kind.drawer(&options), &options, &steps);
     pages.into_iter().zip(times).collect()
 }

@@ -55,6 +55,13 @@ impl Figure for Mechanism {
     /// Returns what the frame lacks to stand, and how it begins to fall.
     fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
         let found = &analysis.frames[frame];
+        if options.film {
+            return match found.verdict {
+                Verdict::Unstable => vec!["moved along its mechanism: kinematics, not dynamics".to_owned()],
+                Verdict::Stable => vec!["nothing moves".to_owned()],
+                Verdict::Undecided => vec!["nothing moves, because no mechanism is proved".to_owned()],
+            };
+        }
         let lack = if found.verdict == Verdict::Unstable && options.verdict_margin {
             governing(&analysis.scene, frame, found).words
         } else {
@@ -66,7 +73,10 @@ impl Figure for Mechanism {
     fn draw(&self, canvas: &mut Canvas<'_>) {
         let (analysis, frame) = (canvas.analysis, canvas.number);
         let unit = unit(canvas.scene(), canvas.options.zoom);
-        let courses = canvas.own().courses.get_or_init(|| vec![Course::new(&Fall::of(analysis, frame), unit)]);
+        let courses = canvas.own().courses.get_or_init(|| {
+            let fall = Fall::of(analysis, frame);
+            vec![if canvas.options.film { Course::far(&fall, unit) } else { Course::new(&fall, unit) }]
+        });
         canvas.displaced = courses[0].at(canvas.options.motion_progress);
         stage::ground(canvas);
         stage::blocks(canvas);
@@ -110,7 +120,7 @@ fn displaced(canvas: &mut Canvas<'_>) {
         vec![fill, Path::stroked(outline, edge.clone())]
     };
     let (swatch, width) = small_block(canvas.look);
-    let words = "how they begin to move, enlarged".into();
+    let words = if canvas.options.film { "blocks that fall" } else { "how they begin to move, enlarged" }.into();
     let key = Rc::new(Key { rank: 11, words, symbol: drawn(swatch), width });
     let bodies = collapse::bodies(&Fall::of(canvas.analysis, canvas.number));
     let sentences: BTreeMap<BlockId, &String> =

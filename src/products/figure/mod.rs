@@ -43,6 +43,7 @@ mod sensitivity;
 mod shapes;
 mod sheet;
 mod stage;
+mod symmetric;
 mod structure;
 mod thrust;
 mod unit;

@@ -175,6 +175,8 @@ request! {
         pub toward: Toward = Toward::default(), arg(skip);
         /// How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.
         pub motion_progress: f64 = given.number("way").map_or(1.0, |way| way.clamp(0.0, 1.0)), arg(skip = 1.0);
+        /// Whether the picture belongs to an animation: the blocks of a mechanism then move until it is clear what falls.
+        pub film: bool = false, arg(skip);
         /// The block of [`Kind::Freebody`](super::Kind::Freebody); `None` for the block with the largest contact force.
         pub block: Option<BlockId> = None, arg(skip);
         /// The block in the centre of a zoomed picture. The picture only shows this block and its surroundings. `None`

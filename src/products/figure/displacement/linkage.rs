@@ -73,10 +73,12 @@ impl Linkage {
     /// at which the two bodies stay in contact.
     pub fn new(fall: &Fall<'_>, group: &[Motion]) -> Linkage {
         let within = |body: &Vec<Motion>| body.iter().any(|m| group.iter().any(|g| g.block == m.block));
-        let member = |body: Vec<Motion>| Member {
-            blocks: body.iter().map(|m| m.block).collect(),
-            motion: body[0],
-            centre: fall.scene.blocks[body[0].block.0].centroid,
+        let member = |body: Vec<Motion>| {
+            let middles = body.iter().map(|m| fall.scene.blocks[m.block.0].centroid.coords);
+            // Mirrored bodies have mirrored centres, so a symmetric mechanism stays symmetric on its way.
+            let centre = Point::from(middles.sum::<Vector>() / body.len() as f64);
+            let motion = Motion { velocity: body[0].at(fall.scene, centre), ..body[0] };
+            Member { blocks: body.iter().map(|m| m.block).collect(), motion, centre }
         };
         let members: Vec<Member> = fall.rigid_bodies().into_iter().filter(within).map(member).collect();
         let mut number_of: BTreeMap<BlockId, usize> = BTreeMap::new();
@@ -111,14 +113,47 @@ impl Linkage {
     /// joints stay closed if Newton's method finds such positions. Otherwise the displacement of every rigid body
     /// follows from its own velocity and spin alone, and joints may open.
     pub fn displaced(&self, amplitude: f64) -> Vec<(BlockId, Displacement)> {
+        let start = self.free(amplitude);
+        self.placed(&self.closed(&start).unwrap_or(start))
+    }
+
+    /// Returns the positions of the bodies if every body moves along its own velocity, and joints may open.
+    fn free(&self, amplitude: f64) -> DVector<f64> {
         let poses = self.members.iter().flat_map(|member| {
             let way = Displacement::along(&member.motion, member.centre, amplitude).translation;
             [way.x, way.y, amplitude * member.motion.spin * self.length]
         });
-        let start = DVector::from_iterator(3 * self.members.len(), poses);
-        let poses = self.closed(&start).unwrap_or(start);
+        DVector::from_iterator(3 * self.members.len(), poses)
+    }
+
+    /// Returns the positions of the bodies at equal steps of the way to `amplitude`, beginning at rest. All joints stay
+    /// closed; the list ends early where this is not possible.
+    pub fn way(&self, amplitude: f64, steps: usize) -> Vec<DVector<f64>> {
+        let mut way = vec![self.free(0.0)];
+        for step in 1..=steps {
+            let free = self.free(amplitude * step as f64 / steps as f64);
+            let next = if self.links.is_empty() {
+                Some(free)
+            } else {
+                // The bodies go on as in the step before.
+                let guess = match &way[..] {
+                    [.., before, last] => last * 2.0 - before,
+                    _ => free,
+                };
+                self.closed(&guess)
+            };
+            match next {
+                Some(poses) => way.push(poses),
+                None => break,
+            }
+        }
+        way
+    }
+
+    /// Returns the displacement of each block in these positions.
+    pub fn placed(&self, poses: &DVector<f64>) -> Vec<(BlockId, Displacement)> {
         let one = |(number, member): (usize, &Member)| {
-            let displacement = self.displacement(number, &poses);
+            let displacement = self.displacement(number, poses);
             member.blocks.iter().map(|block| (*block, displacement)).collect::<Vec<_>>()
         };
         self.members.iter().enumerate().flat_map(one).collect()
