@@ -22,6 +22,7 @@ def check(
     margins: Margins = False,
     wedging: bool = False,
     placement: bool = False,
+    removable: bool = False,
     placed: Iterable[str] | None = None,
     verdict_only: bool = False,
     accuracy: str = "standard",
@@ -36,9 +37,10 @@ def check(
 
     ``margins`` is ``True`` for all margins, or one or several of "friction", "tilt", "horizontal_load", "kernel",
     "load_factor" and "robots". ``wedging=True`` tests whether a frame stands only by wedging. ``placement=True``
-    computes how accurately the blocks must be placed; ``placed`` names the only blocks that are off their places. ``verdict_only=True``
-    leaves out all results that the verdict does not need. ``accuracy`` is "standard" or "proved". ``time_limit`` is in
-    seconds, and ``contact_tolerance`` is in metres. ``notes=False`` leaves out the notes on values of the scene that
+    computes how accurately the blocks must be placed; ``placed`` names the only blocks that are off their places.
+    ``removable=True`` finds out for each block whether the rest stands without it, and how hard a robot must hold it or
+    the rest. ``verdict_only=True`` leaves out all results that the verdict does not need. ``accuracy`` is "standard" or
+    "proved". ``time_limit`` is in seconds, and ``contact_tolerance`` is in metres. ``notes=False`` leaves out the notes on values of the scene that
     are allowed but probably not intended.
 
     ``capacity`` computes all forces that a block can carry: ``"lintel"`` at its centroid (or at the grip point, if a
@@ -60,6 +62,7 @@ def check(
         margins,
         wedging=wedging,
         placement=placement,
+        removable=removable,
         placed=None if placed is None else list(placed),
         verdict_only=verdict_only,
         accuracy=accuracy,
@@ -80,6 +83,7 @@ def check_many(
     margins: Margins = False,
     wedging: bool = False,
     placement: bool = False,
+    removable: bool = False,
     placed: Iterable[str] | None = None,
     verdict_only: bool = False,
     accuracy: str = "standard",
@@ -107,6 +111,7 @@ def check_many(
         margins,
         wedging=wedging,
         placement=placement,
+        removable=removable,
         placed=None if placed is None else list(placed),
         verdict_only=verdict_only,
         accuracy=accuracy,

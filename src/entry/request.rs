@@ -30,6 +30,9 @@ request! {
         /// Compute how accurately the blocks must be placed: the error up to which every standing frame is proved to
         /// stand, and an error with which it falls
         placement: bool = given.flag("placement"), arg(long);
+        /// Find out for each block whether the rest stands without it, and the least force of a robot that holds it or
+        /// the rest
+        removable: bool = given.flag("removable"), arg(long);
         /// Edges within this many metres touch, and bodies may overlap by up to this depth. It replaces the scene's
         /// `contact_tolerance`, or the value that is estimated from its coordinates
         contact_tolerance: Option<f64> = given.value("contact_tolerance", length),
@@ -180,6 +183,7 @@ impl AnalysisArgs {
             accuracy: self.accuracy,
             wedging: self.wedging,
             placement: self.placement,
+            removable: self.removable,
             deadline: self.time_limit.and_then(|limit| Instant::now().checked_add(limit)),
             ..analysis::Options::default()
         }
@@ -188,13 +192,14 @@ impl AnalysisArgs {
     /// Returns the name and the value of each option. A resume file records these values, because the results of a
     /// batch depend on them.
     #[cfg(feature = "cli")]
-    pub(crate) fn described(&self) -> [(&'static str, String); 6] {
+    pub(crate) fn described(&self) -> [(&'static str, String); 7] {
         let tolerance = self.contact_tolerance.map(|metres| format!("{metres} m"));
         let limit = self.time_limit.map(|limit| format!("{limit:?}"));
         [
             ("--accuracy", self.accuracy.word().to_owned()),
             ("--wedging", if self.wedging { "yes" } else { "no" }.into()),
             ("--placement", if self.placement { "yes" } else { "no" }.into()),
+            ("--removable", if self.removable { "yes" } else { "no" }.into()),
             ("--contact-tolerance", tolerance.unwrap_or_else(|| "not given".into())),
             ("--time-limit", limit.unwrap_or_else(|| "not given".into())),
             ("--set", self.set.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),

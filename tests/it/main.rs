@@ -55,6 +55,7 @@ mod problems;
 mod mutant;
 mod program;
 mod random;
+mod removable;
 mod report;
 mod scenes;
 mod sensitivity;

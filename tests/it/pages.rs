@@ -378,6 +378,7 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
             let first = scene.block_named(&scene.blocks()[0].id);
             options.capacity = first.map(CapacityRequest::of_block);
             options.placement = true;
+            options.removable = true;
         }
         let mut analysis = Analysis::with(&scene, &options);
         if number < 6 {

@@ -205,6 +205,9 @@ impl Batch {
         if self.level.placement {
             fields = fields.with_placement();
         }
+        if self.level.removable {
+            fields = fields.with_removable();
+        }
         Ok(SceneWork {
             level: self.level.clone(),
             margins: self.margins.clone(),
@@ -327,6 +330,7 @@ impl SceneWork {
         if self.fields.ask(&["frames", "placement"]) {
             options.placement = true;
         }
+        options.removable |= self.fields.ask(&["frames", "removable"]);
         options
     }
 }

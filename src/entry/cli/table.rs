@@ -11,7 +11,7 @@ use crate::mechanics::scene::{Frame, Scene};
 use crate::products::result::Timing;
 use crate::products::wording::number::{amount, duration, letter, tenths};
 use crate::products::wording::verdict::plain;
-use crate::products::wording::{capacity, case, failure, margin, movement, placement, proof};
+use crate::products::wording::{capacity, case, failure, margin, movement, placement, proof, removable};
 use crate::text::heading;
 
 /// The words in the tables and in the lines below them, with their meanings.
@@ -329,6 +329,8 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) 
     remarks.extend(frame.placement.as_ref().map(|p| format!("placement: {}", placement::sentence(scene, frame, p))));
     let moved = frame.movements.iter().map(|m| format!("movement: {}", movement::sentence(scene, frame, m)));
     remarks.extend(moved);
+    let rows = frame.removable.iter();
+    remarks.extend(rows.map(|rows| format!("removable: {}", removable::phrases(scene, rows).join("; "))));
     let carried = frame.capacity.iter();
     remarks.extend(carried.map(|c| format!("capacity: {}", capacity::sentences(scene, frame.verdict, c))));
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));

@@ -35,6 +35,7 @@ pub(super) fn unloaded_frame(context: &FrameContext, assembly: &Assembly, effect
         sensitivity: None,
         placement: None,
         movements: Vec::new(),
+        removable: None,
         capacity: None,
         only_by_wedging: None,
         exact: None,

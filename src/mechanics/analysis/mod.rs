@@ -21,6 +21,7 @@ mod gaps_closed;
 mod option;
 mod pair;
 mod placement;
+mod removable;
 mod wedged;
 mod thrust_states;
 mod movement;
@@ -61,6 +62,7 @@ pub use movement::{Crack, Cracked, MovementOutcome, SupportMovement};
 pub use option::{Accuracy, Options};
 pub use pair::pair;
 pub use placement::{BlockPlacement, Placement, PlacementError, PlacementLimit};
+pub use removable::{Help, Removable};
 pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity, Slope};
 pub use thrust_states::{ThrustState, ThrustStates};
 pub use undecided::UndecidedReason;
@@ -182,6 +184,8 @@ pub struct FrameAnalysis {
     pub placement: Option<Placement>,
     /// How the structure follows each movement of a support that the scene lists, if the frame stands.
     pub movements: Vec<SupportMovement>,
+    /// Which blocks may leave, in the order of placing, if requested.
+    pub removable: Option<Vec<Removable>>,
     /// The forces that a block can carry, if requested and if the block is placed.
     pub capacity: Option<LoadCapacity>,
     /// Whether the frame stands only by a self-stress that its loads do not build up from rest. `None` if not
@@ -232,6 +236,7 @@ impl Analysis {
         gaps_closed::recheck(&scene, &interfaces, &mut frames, options);
         capacity::add_capacities(&scene, &interfaces, &mut frames, options);
         movement::add_movements(&scene, &interfaces, &mut frames, options);
+        removable::add_removables(&scene, &interfaces, &mut frames, options);
         let notes = gaps_closed::notes(&scene, &interfaces);
         Analysis { scene, frames, notes, case_scenes: Vec::new() }
     }

@@ -30,6 +30,9 @@ pub struct Options {
     pub wedging: bool,
     /// Whether to compute how accurately the blocks of a stable frame must be placed.
     pub placement: bool,
+    /// Whether to find out which blocks may leave a frame ([`FrameAnalysis::removable`](super::FrameAnalysis::removable)).
+    /// Takes one verdict for each block, and some programs for each block without which the rest falls.
+    pub removable: bool,
     /// Whether to compute only the verdict and its proof. If a frame falls, its failures are not computed. If it
     /// stands, the forces balance, but their sum may not be the least. The result states this.
     pub verdict_only: bool,
@@ -67,6 +70,7 @@ impl Options {
         margins: bool, "Whether to compute how far each frame is from its limit of stability.";
         margin_kinds: MarginKinds, "The margins to compute, if margins are requested.";
         wedging: bool, "Whether to check if a stable frame stands only by wedging.";
+        removable: bool, "Whether to find out which blocks may leave a frame, and how hard robots must hold.";
         placement: bool, "Whether to compute how accurately the blocks of a stable frame must be placed.";
         verdict_only: bool, "Whether to compute only the verdict and its proof.";
     }
@@ -88,6 +92,7 @@ impl Options {
         capacity: None,
         wedging: false,
         placement: false,
+        removable: false,
         verdict_only: false,
         deadline: None,
     };

@@ -15,6 +15,8 @@ pub(crate) struct About {
     pub needs_capacity: bool,
     /// Whether the analysis has to compute how accurately the blocks must be placed.
     pub needs_placement: bool,
+    /// Whether the analysis has to find out which blocks may leave.
+    pub needs_removable: bool,
     /// Whether the analysis has to compute how a margin changes with corners, weights, friction and loads.
     pub needs_sensitivity: bool,
     /// Whether each falling part is shown with one elementary mechanism

@@ -14,6 +14,7 @@ use super::movement::MovedSupport;
 use super::option::{ArrowScale, Options};
 use super::placement::PlacementTolerance;
 use super::polygon::ForcePolygon;
+use super::removable::RemovableBlocks;
 use super::sensitivity::CornerEffects;
 use super::sheet::Figure;
 use super::structure::Structure;
@@ -75,11 +76,13 @@ pub enum Kind {
     Placement,
     /// How the structure cracks and follows a support that moves a little. The option `movement` selects the movement.
     Movement,
+    /// Which blocks may leave: without help, while a robot holds another block, or not.
+    Removable,
 }
 
 impl Kind {
     /// All kinds, in the order in which the help text lists them.
-    pub const ALL: [Kind; 16] = [
+    pub const ALL: [Kind; 17] = [
         Kind::Forces,
         Kind::Flow,
         Kind::Mechanism,
@@ -96,6 +99,7 @@ impl Kind {
         Kind::Freebody,
         Kind::Placement,
         Kind::Movement,
+        Kind::Removable,
     ];
 
     /// Returns what draws a figure of this kind.
@@ -117,6 +121,7 @@ impl Kind {
             Kind::Freebody => &FreeBody,
             Kind::Placement => &PlacementTolerance,
             Kind::Movement => &MovedSupport,
+            Kind::Removable => &RemovableBlocks,
         }
     }
 
@@ -183,6 +188,7 @@ impl Kind {
         }
         analysis_options.margins |= self.needs_margins();
         analysis_options.placement |= self.about().needs_placement;
+        analysis_options.removable |= self.about().needs_removable;
         if self.needs_sensitivity() && analysis_options.sensitivity.is_none() {
             analysis_options.sensitivity = Some(Sensitivity::default_kind(scene));
         }
@@ -213,6 +219,7 @@ impl Kind {
         let placement = || frames.iter().all(|f| f.placement.is_some() || f.verdict != Verdict::Stable);
         self.needs_margins() && !margins()
             || self.about().needs_placement && !placement()
+            || self.about().needs_removable && frames.iter().any(|f| f.removable.is_none())
             || self.needs_capacity() && !capacity()
             || self.needs_sensitivity() && !sensitivity()
     }

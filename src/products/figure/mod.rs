@@ -35,6 +35,7 @@ mod movement;
 mod option;
 mod parallel_arrows;
 mod placement;
+mod removable;
 mod placing;
 mod polygon;
 mod pressure;

@@ -473,6 +473,15 @@ pub static KEYS: &[Key] = &[
             ]),
             key("velocities", Motions, "displacement of the placed blocks").when("if it follows"),
         ]),
+        key("removable", Objects, "for each placed block, in the order of placing, whether it may leave").when("with `--removable`").of(&[
+            key("block", Text, "block"),
+            key("stands", FlagOrOpen, "whether the rest stands without the block and without the robot that holds it"),
+            key("force", Number, "least force of a robot that holds the block, at its grip point or else at its centroid, while its joints still touch, so that the whole frame stands; 0 if it stands without this robot").unit("N").when("if a force suffices"),
+            key("help", Object, "least help with which the rest stands: one more robot that holds one other block at its centroid").when("if the rest falls, and one robot can help").of(&[
+                key("block", Text, "block that the robot holds"),
+                key("force", Number, "least force of the robot").unit("N"),
+            ]),
+        ]),
         key("only_by_wedging", FlagOrOpen, "whether the frame stands only because blocks press on each other although no load presses them together; null if this could not be decided, and `effects` then gives the reason").when("with `--wedging`, if the frame stands"),
         key("wedging", Object, "proof that the frame stands only by wedging").when("with `--wedging`, if `only_by_wedging` is `true`").of(&[
             key("must_press", Objects, "interfaces that open or slide if the springs give way; in every balance, their normal forces sum to at least `normal_force_at_least`, if a bound was found").of(&[

@@ -120,6 +120,12 @@ impl Fields {
         self.with(&["frames", "placement"])
     }
 
+    /// Selects, in addition, which blocks of every frame may leave.
+    #[must_use]
+    pub fn with_removable(self) -> Fields {
+        self.with(&["frames", "removable"])
+    }
+
     fn with(mut self, path: &[&'static str]) -> Fields {
         if !self.ask(path) {
             self.chosen.push(path.to_vec());

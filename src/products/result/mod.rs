@@ -23,6 +23,7 @@ mod margin;
 mod movement;
 mod refusal;
 mod placement;
+mod removable;
 mod sensitivity;
 mod wedging;
 
@@ -47,6 +48,7 @@ use placement::Placement;
 pub use refusal::{problem_line, refusal};
 #[cfg(feature = "wasm")]
 pub(crate) use refusal::{problem_list, remark_list};
+use removable::Removable;
 use sensitivity::Sensitivity;
 use wedging::Wedging;
 
@@ -206,6 +208,8 @@ struct Frame<'a> {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     movements: Vec<Movement<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    removable: Option<Vec<Removable<'a>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     capacity: Option<Capacity<'a>>,
     /// `Some(None)`, written as `null`, if it was requested but could not be decided.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -326,6 +330,7 @@ impl<'a> Frame<'a> {
             governing_case: cases.map(|cases| cases.each[cases.governing].id.as_str()),
             envelope: cases.iter().flat_map(|cases| cases.envelope.iter().enumerate()).map(Envelope::new).collect(),
             movements: frame.movements.iter().map(|m| Movement::new(scene, m)).collect(),
+            removable: frame.removable.as_ref().map(|rows| Removable::list(scene, rows)),
             capacity: frame.capacity.as_ref().map(|c| Capacity::new(scene, c)),
             only_by_wedging: is_simulated(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
             wedging: (frame.wedged.as_ref()).map(|w| Wedging::new(scene, frame, w)),

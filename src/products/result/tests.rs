@@ -109,6 +109,7 @@ fn frame() -> FrameAnalysis {
         sensitivity: None,
         placement: None,
         movements: vec![],
+        removable: None,
         capacity: None,
         only_by_wedging: None,
         exact: None,

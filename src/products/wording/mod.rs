@@ -14,6 +14,7 @@ pub mod margin;
 pub mod movement;
 pub mod number;
 pub mod placement;
+pub mod removable;
 pub mod proof;
 pub mod sensitivity;
 pub mod verdict;

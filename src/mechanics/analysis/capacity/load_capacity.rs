@@ -161,6 +161,17 @@ impl LoadCapacity {
         along.reduce(f64::max)
     }
 
+    /// Returns the magnitude of the smallest carried force, N; 0 if the frame stands without a force. `None` if no force
+    /// is carried.
+    pub fn least(&self) -> Option<f64> {
+        if self.shape() == CapacityShape::Everything {
+            return Some(0.0);
+        }
+        // The smallest force is no farther from a corner than twice the largest corner is from 0.
+        let far = self.vertices.iter().map(|v| v.force.norm()).reduce(f64::max)?;
+        Some(region::distance(&self.bounded_polygon(4.0 * far), Vector::zeros()))
+    }
+
     /// True if the frame stands with this additional force, in newtons, on the block.
     pub fn contains(&self, force: impl Into<Vector>) -> bool {
         let force = force.into();

@@ -33,6 +33,7 @@ use crate::mechanics::statics::effect::{self, FrameContext};
 use crate::mechanics::statics::interface::Interfaces;
 pub use load_capacity::{CapacityEdge, CapacityShape, CapacityVertex, LoadCapacity, VertexForce};
 use probe::Probe;
+pub(super) use probe::with_grip;
 pub use request::{CapacityError, CapacityRequest, Cases, ForceAt};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use typed::typed_capacity;
@@ -148,7 +149,11 @@ pub(crate) fn capacity_of(
 
 /// Computes the set of forces that a block can carry in one assembly. The set is empty if another component, which does
 /// not contain the block, falls.
-fn capacity_of_assembly(assembly: &Assembly, block: BlockId, points: &[Point]) -> Result<LoadCapacity, CapacityError> {
+pub(super) fn capacity_of_assembly(
+    assembly: &Assembly,
+    block: BlockId,
+    points: &[Point],
+) -> Result<LoadCapacity, CapacityError> {
     let (mut own, mut falls) = (None, None);
     for component in assembly.components() {
         if let Some(body) = component.bodies.iter().position(|b| b.block == block) {

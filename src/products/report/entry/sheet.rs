@@ -12,7 +12,7 @@ use crate::pictures::drawing::Drawing;
 use crate::products::figure::{self, Kind, Options};
 use crate::products::wording::number::letter;
 use crate::products::wording::verdict::plain;
-use crate::products::wording::{movement, placement, proof, verdict};
+use crate::products::wording::{movement, placement, proof, removable, verdict};
 use crate::text::line;
 
 /// Width of a figure, in pixels. It is half a page, so that labels are legible in print and on a phone.
@@ -287,12 +287,14 @@ fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     )
 }
 
-/// Returns the remarks at the end of the main section. They are the placement tolerance, the result of the test for
+/// Returns the remarks at the end of the main section. They are the placement tolerance, the blocks that may leave, the result of the test for
 /// wedging, if the test was made and did not show that the structure stands without wedging, and the notices of the
 /// analysis.
 fn remarks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
     let placement = frame_analysis.placement.as_ref();
     let placement = placement.map(|p| format!("Placement: {}.", line(&placement::sentence(scene, frame_analysis, p))));
+    let rows = frame_analysis.removable.iter();
+    let rows = rows.map(|rows| format!("Removable: {}.", line(&removable::phrases(scene, rows).join("; "))));
     let wedging = frame_analysis
         .effects
         .iter()
@@ -300,5 +302,5 @@ fn remarks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
         .filter(|_| frame_analysis.only_by_wedging != Some(false));
     let wedging = wedging.map(|w| format!("Wedging: {}.", line(&w.why)));
     let notices = frame_analysis.notices.iter().map(|n| format!("Note: {}.", line(n)));
-    placement.into_iter().chain(wedging).chain(notices).collect()
+    placement.into_iter().chain(rows).chain(wedging).chain(notices).collect()
 }

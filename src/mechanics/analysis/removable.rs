@@ -1,0 +1,204 @@
+//! [`Removable`]: for each block of a frame, whether the rest stands without it, and the least force of a robot that
+//! holds it, or that holds the rest.
+//!
+//! The sufficient forces on a block form a polygon with proofs ([`LoadCapacity`](super::LoadCapacity)), and the least force is its distance
+//! from 0. It is computed for one block after the other ([`least_hold`]): a motion with which the frame falls gives a
+//! half-plane that contains every sufficient force, for every block. The motions of the polygons found so far therefore
+//! exclude most of the other blocks.
+
+#[cfg(feature = "parallel")]
+use rayon::prelude::*;
+
+use super::capacity::{capacity_of_assembly, with_grip};
+use super::decide::{LimitDistance, ProofCache, decide_verdict};
+use super::{Analysis, FrameAnalysis, Options, Verdict};
+use crate::geometry::{Point, Vector, quarter_turn};
+use crate::mechanics::proof::{Motion, net_power};
+use crate::mechanics::scene::{BlockId, Frame, Scene};
+use crate::mechanics::solve::DeadlineGuard;
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::interface::Interfaces;
+
+/// Whether a block may leave its frame, and which forces of robots are needed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Removable {
+    /// The block.
+    pub block: BlockId,
+    /// The verdict on the rest of the frame: without this block, and without the robot that holds it.
+    pub rest: Verdict,
+    /// The least force, N, of a robot that holds this block at its grip point, otherwise at its centroid, with which
+    /// the whole frame stands; 0 if it stands without this robot. `None` if no force suffices, or if none was found.
+    pub force: Option<f64>,
+    /// If the rest falls: the block that one more robot must hold, so that the rest stands.
+    pub help: Option<Help>,
+}
+
+/// The least help with which the rest of a frame stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Help {
+    /// The block that the robot holds at its centroid. No other block that no robot holds needs a smaller force.
+    pub block: BlockId,
+    /// The least force of the robot, N.
+    pub force: f64,
+}
+
+/// Finds out for each frame which blocks may leave it, if the options request it.
+pub(super) fn add_removables(scene: &Scene, interfaces: &Interfaces, frames: &mut [FrameAnalysis], options: &Options) {
+    if !options.removable {
+        return;
+    }
+    for (frame, found) in scene.frames.iter().zip(frames) {
+        let without = |left: &BlockId| Frame {
+            placed: frame.placed.iter().copied().filter(|block| block != left).collect(),
+            holds: frame.holds.iter().copied().filter(|hold| hold.block != *left).collect(),
+            plans: Vec::new(),
+            ..frame.clone()
+        };
+        // The frame itself is the last one.
+        let rests = frame.placed.iter().map(without).chain([frame.clone()]).collect();
+        let rests = Analysis::with(Scene { frames: rests, ..scene.clone() }, &options.only_verdict());
+        let one = |number: usize| {
+            let _until = DeadlineGuard::new(options.deadline);
+            of_block(&rests, interfaces, number, found.verdict)
+        };
+        let blocks = 0..frame.placed.len();
+        #[cfg(feature = "parallel")]
+        let rows: Vec<_> = blocks.into_par_iter().map(one).collect();
+        #[cfg(not(feature = "parallel"))]
+        let rows: Vec<_> = blocks.map(one).collect();
+        for (row, _) in rows.iter().filter(|(_, is_missing)| *is_missing) {
+            let name = &scene.blocks[row.block.0].id;
+            found.notices.push(format!("removable: no proof was found of the least force for block {name}"));
+        }
+        found.removable = Some(rows.into_iter().map(|(row, _)| row).collect());
+    }
+}
+
+/// Finds out whether one block may leave. `rests` has, in order, the frames without one block, and the whole frame. The
+/// flag says that a force is missing because no proof was found.
+fn of_block(rests: &Analysis, interfaces: &Interfaces, number: usize, verdict: Verdict) -> (Removable, bool) {
+    let (scene, rest) = (&rests.scene, &rests.frames[number]);
+    let assembly = |number: usize| {
+        let frame = &scene.frames[number];
+        effect::assemble(&FrameContext { scene, frame, interfaces: &interfaces.in_frame(scene, frame) }).0
+    };
+    let whole = scene.frames.len() - 1;
+    let block = scene.frames[whole].placed[number];
+    let hold = scene.frames[whole].holds.iter().find(|hold| hold.block == block);
+    let force = match (verdict, hold) {
+        (Verdict::Undecided, _) => Ok(None),
+        (Verdict::Stable, None) => Ok(Some(0.0)),
+        _ => {
+            let mut given = assembly(whole);
+            let robots = given.grips.iter_mut().filter(|grip| hold.is_some_and(|hold| hold.robot == grip.robot));
+            robots.for_each(|grip| (grip.limits.fx, grip.limits.fy) = (0.0, 0.0));
+            let at = hold.map_or(scene.blocks[block.0].centroid, |hold| hold.at);
+            least_hold(&given, vec![(block, at)], &[]).map(|help| help.map(|help| help.force))
+        }
+    };
+    let help = match rest.verdict {
+        Verdict::Unstable => {
+            let frame = &scene.frames[number];
+            let free = frame.placed.iter().filter(|block| frame.holds.iter().all(|hold| hold.block != **block));
+            let points = free.map(|block| (*block, scene.blocks[block.0].centroid)).collect();
+            least_hold(&assembly(number), points, &rest.mechanism)
+        }
+        _ => Ok(None),
+    };
+    let is_missing = force.is_err() || help.is_err();
+    let (force, help) = (force.unwrap_or_default(), help.unwrap_or_default());
+    (Removable { block, rest: rest.verdict, force, help }, is_missing)
+}
+
+/// No proof shows which force is the least.
+struct NotFound;
+
+/// The forces on one block with which a frame may stand, as far as the motions tell.
+struct Candidate {
+    block: BlockId,
+    body: usize,
+    at: Point,
+    /// The half-planes normal · F ≥ limit.
+    half_planes: Vec<(Vector, f64)>,
+    /// The smallest force in all half-planes.
+    least: Vector,
+}
+
+/// Finds the least force of a robot at one of the points, on one of the blocks, with which an assembly stands. `None` if
+/// no such force suffices. `motion` is a motion with which it falls, or empty.
+fn least_hold(given: &Assembly, points: Vec<(BlockId, Point)>, motion: &[Motion]) -> Result<Option<Help>, NotFound> {
+    let candidate = |(block, at): (BlockId, Point)| {
+        let body = given.bodies.iter().position(|body| body.block == block)?;
+        Some(Candidate { block, body, at, half_planes: Vec::new(), least: Vector::zeros() })
+    };
+    let mut open: Vec<Candidate> = points.into_iter().filter_map(candidate).collect();
+    let exclude = |open: &mut Vec<Candidate>, motion: &[Motion]| {
+        let power = net_power(given, motion);
+        open.retain_mut(|candidate| candidate.exclude(given, motion, power));
+    };
+    exclude(&mut open, motion);
+    let mut best: Option<Help> = None;
+    while let Some(next) = (0..open.len()).min_by(|a, b| open[*a].least.norm().total_cmp(&open[*b].least.norm())) {
+        let Candidate { block, body, at, least, .. } = open.remove(next);
+        if best.is_some_and(|best| least.norm() >= best.force * (1.0 - 1e-9)) {
+            break;
+        }
+        // A robot without limits shows whether any force suffices.
+        let unlimited = [f64::INFINITY, f64::INFINITY, 0.0];
+        match decided(&with_grip(given, body, at, unlimited)) {
+            (Verdict::Stable, _) => {}
+            (Verdict::Unstable, motion) => {
+                exclude(&mut open, &motion);
+                continue;
+            }
+            (Verdict::Undecided, _) => return Err(NotFound),
+        }
+        let capacity = capacity_of_assembly(given, block, &[at]).map_err(|_| NotFound)?;
+        capacity.edges.iter().for_each(|edge| exclude(&mut open, &edge.mechanism));
+        if let Some(force) = capacity.least().filter(|force| best.is_none_or(|best| *force < best.force)) {
+            best = Some(Help { block, force });
+        }
+    }
+    Ok(best)
+}
+
+/// Returns the worst verdict of all components of an assembly, and the motion with which such a component falls.
+fn decided(assembly: &Assembly) -> (Verdict, Vec<Motion>) {
+    let components = assembly.components();
+    let verdicts = components.iter().map(|c| decide_verdict(c, LimitDistance::Unknown, &mut ProofCache::default()));
+    verdicts.max_by_key(|(verdict, _)| *verdict).unwrap_or((Verdict::Stable, Vec::new()))
+}
+
+impl Candidate {
+    /// Excludes the forces that do not stop a motion, whose net power without the force is given. Returns false if no
+    /// force is left.
+    fn exclude(&mut self, given: &Assembly, motion: &[Motion], power: f64) -> bool {
+        let centroid = given.bodies[self.body].centroid;
+        let own = motion.iter().find(|motion| motion.block == self.block);
+        let velocity = own.map(|own| own.about(centroid, self.at)).unwrap_or_default();
+        let Some(normal) = (-velocity).try_normalize(1e-9) else { return power <= 0.0 };
+        let limit = power / velocity.norm();
+        let mut is_left = true;
+        if normal.dot(&self.least) < limit {
+            // The smallest force now lies on the new line: at its foot, or nearest to it between the other lines.
+            let (foot, along) = (normal * limit, quarter_turn(normal));
+            let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+            for (other, bound) in &self.half_planes {
+                let (rate, missing) = (other.dot(&along), bound - other.dot(&foot));
+                if rate > 1e-9 {
+                    low = low.max(missing / rate);
+                } else if rate < -1e-9 {
+                    high = high.min(missing / rate);
+                }
+            }
+            // Lines that almost meet in a point may only seem to miss each other.
+            is_left = low <= high + 1e-6 * (limit.abs() + low.abs() + high.abs());
+            self.least = foot + along * 0.0_f64.max(low).min(high);
+        }
+        self.half_planes.push((normal, limit));
+        is_left
+    }
+}
