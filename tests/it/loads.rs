@@ -190,6 +190,23 @@ fn a_frame_has_the_results_of_its_worst_case() {
 }
 
 #[test]
+fn the_cases_on_the_page_of_questions_have_the_factors_that_it_states() {
+    let read =
+        |path: &str| std::fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).expect("readable");
+    let page = read("src/doc/questions.md");
+    let scene = Scene::from_json(&read("assets/questions/retaining-wall.json")).expect("valid");
+    let frame = Analysis::with(&scene, &Options::default().margins(true)).frames.remove(0);
+    let cases = frame.cases.expect("the scene has cases");
+    assert_eq!(cases.each.len(), 3);
+    for case in cases.each {
+        let factor = case.margins.expect("requested").load_factor.at().expect("a limit");
+        let words =
+            format!("case {}: stands, carries its loads times {:.2}", case.id, (100.0 * factor).floor() / 100.0);
+        assert!(page.contains(&words), "{words}");
+    }
+}
+
+#[test]
 fn problems_of_loads_and_cases_name_their_place() {
     let file = json!({ "drystone": 1,
         "ground": [{ "polygon": [[-9, 0], [9, 0], [9, -1], [-9, -1]] }],
