@@ -23,7 +23,8 @@ request! {
         /// How strict the proof of a verdict must be; proved is stricter than standard by a factor of 100 for forces
         /// and 1000 for motions, and says which verdicts hold in exact arithmetic
         accuracy: Accuracy = given.word("accuracy").unwrap_or_default(),
-            arg(long, value_name = "LEVEL", default_value = "standard", value_parser = accuracy_parser());
+            arg(long, value_name = "LEVEL", default_value = "standard", env = "DRYSTONE_ACCURACY",
+                hide_env_values = true, value_parser = accuracy_parser());
         /// Test whether each standing frame stands only by wedging: by a self-stress that its loads do not build up
         /// from rest
         wedging: bool = given.flag("wedging"), arg(long);
@@ -39,7 +40,8 @@ request! {
             arg(long, value_name = "METRES", value_parser = length);
         /// Stop solving after this many seconds; frames that are not decided by then are undecided
         time_limit: Option<Duration> = given.value("time_limit", seconds),
-            arg(long, value_name = "SECONDS", value_parser = seconds);
+            arg(long, value_name = "SECONDS", env = "DRYSTONE_TIME_LIMIT", hide_env_values = true,
+                value_parser = seconds);
         /// Give a key of the scene another value, such as friction=0.5, kernel=0.2, gravity=[0,-1.62] or
         /// blocks.V3.weight=20, also several times; tilt=5 turns gravity to the right by 5°, and load_factor=2 doubles
         /// all loads

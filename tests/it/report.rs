@@ -444,3 +444,23 @@ fn values_of_a_scene_are_set_for_one_run_and_stated() {
     let line = folder.text("m.ndjson");
     assert!(line.contains("\"intervals\"") && !line.contains("mechanisms"), "{line}");
 }
+
+#[test]
+fn habits_of_other_programs_work() {
+    let folder = Folder::new(&[("in/a.json", STANDS), ("in/b.json", STANDS), ("wrong.json", WRONG)]);
+    folder.done("report in/*.json -o r.json");
+    let json: serde_json::Value = serde_json::from_str(&folder.text("r.json")).expect("JSON");
+    assert_eq!(json["scenes"].as_array().map(Vec::len), Some(2));
+    let Ran(code, errors) = folder.run("batch in/*.ndjson -o b.ndjson");
+    assert!(code == 2 && errors.contains("no file matches this pattern"), "{errors}");
+    folder.done("render in/a.json -o page-{0p}.svg --pages --force");
+    assert!(folder.path("page-1.svg").exists());
+    for command in ["render wrong.json -o w.svg", "report wrong.json -o w.html", "render in/*.json -o w.svg"] {
+        let Ran(code, errors) = folder.run(&format!("{command} --diagnostics json"));
+        assert_eq!(code, 2, "{command}: {errors}");
+        for line in errors.lines() {
+            let line: serde_json::Value = serde_json::from_str(line).expect(&errors);
+            assert!(line["problems"][0]["message"].is_string() || line["note"].is_string(), "{line}");
+        }
+    }
+}

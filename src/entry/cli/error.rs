@@ -152,6 +152,15 @@ impl CliError {
         }
     }
 
+    /// Returns the name of the file with the error; empty for an error of the command line.
+    pub(crate) fn file(&self) -> &str {
+        match self {
+            CliError::Scene { name, .. } | CliError::Style { name, .. } => name,
+            CliError::NotRead { what, .. } | CliError::NotWritten { what, .. } => what,
+            _ => "",
+        }
+    }
+
     /// Returns what is wrong, without advice about the command line.
     pub(crate) fn message(&self) -> String {
         match self {

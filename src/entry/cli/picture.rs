@@ -40,7 +40,7 @@ request! {
         /// A font file (.ttf, .otf, .ttc) for scripts that the built-in fonts lack; may be given several times. Without
         /// it, drystone writes these characters as code points wherever it lays out the text itself
         fonts: Vec<PathBuf> = given.list("font", |r, node, at| r.text(node, at).map(PathBuf::from)).unwrap_or_default(),
-            arg(long = "font", value_name = "FILE");
+            arg(long = "font", value_name = "FILE", env = "DRYSTONE_FONT", hide_env_values = true);
         /// The compression of a PNG.
         compression: Compression = Compression::default(), arg(skip);
     }

@@ -42,7 +42,8 @@ pub(crate) struct Render {
     /// Write every panel of a strip to a separate file, with its letter after the name
     #[arg(long, conflicts_with = "animate")]
     panels: bool,
-    /// Split a long strip into A4 pages, each a separate file with its number after the name
+    /// Split a long strip into A4 pages, each a separate file with its number after the name; {p} in the name, or {0p}
+    /// for numbers of equal length, says where the number stands
     #[arg(long, conflicts_with_all = ["animate", "panels"])]
     pages: bool,
     /// Draw only the outlines, with the problems of a scene that is not valid marked and numbered; the exit code is 2
@@ -58,10 +59,16 @@ pub(crate) struct Render {
     /// Exit with 1 or 3, as check does, if something is unstable or undecided
     #[arg(long)]
     strict: bool,
+    /// Accepted for habit: render always replaces its own output
+    #[arg(long, hide = true)]
+    force: bool,
 }
 
 impl Render {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+        if self.force {
+            terminal.note("--force does nothing: render always replaces its pictures, and never a file that it reads");
+        }
         if !self.watch {
             return self.once(terminal);
         }

@@ -9,6 +9,7 @@ use crate::entry::cli::error::CliError;
 use crate::entry::request::{AnalysisArgs, FrameChoice};
 use crate::mechanics::scene::{Scene, isolate};
 use crate::products::snapshot::discovery::looks_like_scene;
+use crate::products::snapshot::setting::matches_pattern;
 
 /// A scene and the path from which it was read.
 #[derive(Debug)]
@@ -101,10 +102,35 @@ pub(crate) fn foreign_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError>
     Ok(sorted(paths)?.1)
 }
 
+/// Replaces each pattern, a path with `*` in its last part that no file has as its name, by the files that match it,
+/// sorted by name. A shell does this too, unless the pattern is in quotes. Returns an error if no file matches.
+pub(crate) fn expanded(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
+    let mut all = Vec::new();
+    for path in paths {
+        let pattern = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        if !pattern.contains('*') || path.exists() {
+            all.push(path.clone());
+            continue;
+        }
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let listed = fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter().flatten().flatten();
+        let names = listed.map(|entry| entry.file_name());
+        let mut found: Vec<PathBuf> = (names.filter(|name| matches_pattern(&pattern, &name.to_string_lossy())))
+            .map(|name| path.with_file_name(name))
+            .collect();
+        if found.is_empty() {
+            return Err(CliError::not_read(name(path), "no file matches this pattern"));
+        }
+        found.sort();
+        all.append(&mut found);
+    }
+    Ok(all)
+}
+
 /// Returns the files at `paths` and the scene files in folders, and the other `.json` files in folders.
 fn sorted(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), CliError> {
     let (mut all, mut foreign) = (Vec::new(), Vec::new());
-    for path in paths {
+    for path in &expanded(paths)? {
         if !path.is_dir() {
             all.push(path.clone());
             continue;

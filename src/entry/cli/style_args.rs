@@ -16,10 +16,12 @@ request! {
         /// The look: plain with one mark at each joint, as in Vallat (2023), for print and greyscale, for all kinds of
         /// colour vision, or for a dark page [default: plain, but thesis for scenes on a lattice]
         theme: Option<ThemeName> = given.word("theme"),
-            arg(long, value_name = "NAME", value_parser = typed_word::<ThemeName>());
+            arg(long, value_name = "NAME", env = "DRYSTONE_THEME", hide_env_values = true,
+                value_parser = typed_word::<ThemeName>());
         /// A style file (.json or .toml) with your own colours, widths and sizes; `drystone style` prints one to start
         /// from
-        style: Option<PathBuf> = given.text("style").map(PathBuf::from), arg(long, value_name = "FILE");
+        style: Option<PathBuf> = given.text("style").map(PathBuf::from),
+            arg(long, value_name = "FILE", env = "DRYSTONE_STYLE", hide_env_values = true);
     }
 }
 

@@ -13,6 +13,7 @@ use terminal_size::{Height, Width};
 
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::page::Page;
+use crate::products::result::{Layout, quoted, refusal};
 
 /// The options for messages and colours.
 #[derive(Clone, Copy, Debug, Args)]
@@ -21,8 +22,19 @@ pub(crate) struct OutputArgs {
     #[arg(long, short, global = true)]
     quiet: bool,
     /// Colour the text; auto depends on the terminal and on NO_COLOR
-    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto", env = "DRYSTONE_COLOR")]
+    #[arg(hide_env_values = true)]
     color: Colour,
+    /// Write errors and notes for people, or as lines of JSON: { "file", "problems" } as in check --json, { "note" }
+    #[arg(long, global = true, value_name = "FORM", default_value = "text", env = "DRYSTONE_DIAGNOSTICS")]
+    #[arg(hide_env_values = true)]
+    diagnostics: Diagnostics,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum Diagnostics {
+    Text,
+    Json,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -36,6 +48,7 @@ enum Colour {
 #[derive(Debug)]
 pub(crate) struct Terminal {
     quiet: bool,
+    diagnostics: Diagnostics,
 }
 
 impl Terminal {
@@ -47,7 +60,7 @@ impl Terminal {
             Colour::Never => ColorChoice::Never,
         };
         choice.write_global();
-        Terminal { quiet: output.quiet }
+        Terminal { quiet: output.quiet, diagnostics: output.diagnostics }
     }
 
     /// True if `--quiet` is given: tables, notes and progress are not printed.
@@ -90,14 +103,30 @@ impl Terminal {
 
     /// Prints several lines of information to standard error, unless `--quiet` is given.
     pub(crate) fn notes(&self, page: &Page) {
-        if !self.quiet {
-            self.complain(page);
+        match self.diagnostics {
+            _ if self.quiet => {}
+            Diagnostics::Text => self.complain(page),
+            Diagnostics::Json => {
+                let line = format!("{{\"note\":{}}}\n", quoted(page.text().trim_end()));
+                self.complain_bytes(&line);
+            }
         }
     }
 
     /// Prints the message of an error to standard error.
     pub(crate) fn refuse(&self, complaint: &CliError) {
-        self.complain(&complaint.page(error_width()));
+        match self.diagnostics {
+            Diagnostics::Text => self.complain(&complaint.page(error_width())),
+            Diagnostics::Json => {
+                self.complain_bytes(&refusal(complaint.file(), &complaint.problems(), Layout::OneLine));
+            }
+        }
+    }
+
+    /// Prints a line of JSON to standard error.
+    fn complain_bytes(&self, line: &str) {
+        let mut stream = io::stderr().lock();
+        let _ = stream.write_all(line.as_bytes()).and_then(|()| stream.flush());
     }
 
     /// Prints a page to standard error, also with `--quiet`.

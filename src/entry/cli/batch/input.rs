@@ -6,6 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::entry::cli::error::CliError;
+use crate::entry::cli::source;
 use crate::mechanics::batch::{Input, Record};
 use crate::products::result::Origin;
 
@@ -28,7 +29,7 @@ pub(super) fn of(paths: &[PathBuf], drawn: bool) -> Result<Inputs, Vec<CliError>
         complaints.push(CliError::CommandLine("standard input (-) can be read only once".into()));
     }
     let mut files = Vec::new();
-    for path in paths {
+    for path in &source::expanded(paths)? {
         match scenes_of(path) {
             Ok(found) => files.extend(found),
             Err(complaint) => complaints.push(complaint),

@@ -96,9 +96,10 @@ impl Render {
         let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
         let mut summaries = Vec::new();
         for (path, rendered) in paths.iter().zip(rendered) {
-            summaries.push((self.written(path, rendered.bytes.len()), rendered.summary));
+            let count = rendered.bytes.len();
+            summaries.push((self.written(path, count), rendered.summary));
             for (number, bytes) in rendered.bytes.into_iter().enumerate() {
-                files.push((self.target(path, number), bytes));
+                files.push((self.target(path, number, count), bytes));
             }
         }
         destination::write(&files, Existing::Replace)?;
@@ -110,18 +111,23 @@ impl Render {
 
     /// Returns the name of a figure's file, `a.pdf`, or the names of its first and last file, `a-1.pdf to a-3.pdf`.
     fn written(&self, path: &Path, parts: usize) -> String {
-        let first = self.target(path, 0).display().to_string();
+        let first = self.target(path, 0, parts).display().to_string();
         match parts {
             0 | 1 => first,
-            2 => format!("{first} and {}", self.target(path, 1).display()),
-            _ => format!("{first} to {}", self.target(path, parts - 1).display()),
+            2 => format!("{first} and {}", self.target(path, 1, parts).display()),
+            _ => format!("{first} to {}", self.target(path, parts - 1, parts).display()),
         }
     }
 
-    /// Returns the path of one part of a figure; `number` counts the parts from 0. If the figure is one file, returns
-    /// the path unchanged.
-    fn target(&self, path: &Path, number: usize) -> PathBuf {
-        if self.pages {
+    /// Returns the path of one of `count` parts of a figure; `number` counts the parts from 0. If the figure is one
+    /// file, returns the path unchanged.
+    fn target(&self, path: &Path, number: usize, count: usize) -> PathBuf {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if (self.pages || self.panels) && (name.contains("{p}") || name.contains("{0p}")) {
+            let (page, digits) = (number + 1, count.to_string().len());
+            let name = name.replace("{p}", &page.to_string()).replace("{0p}", &format!("{page:0digits$}"));
+            path.with_file_name(name)
+        } else if self.pages {
             part_path(path, &(number + 1).to_string())
         } else if self.panels {
             part_path(path, &figure::letter(number))

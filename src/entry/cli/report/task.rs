@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::Report;
 use crate::entry::cli::error::CliError;
+use crate::entry::cli::source;
 
 /// One scene of a report, or two scenes that the report compares.
 pub(super) enum Task {
@@ -25,7 +26,7 @@ impl Report {
         }
         let mut tasks = Vec::new();
         let mut complaints = Vec::new();
-        for path in &self.scenes {
+        for path in &source::expanded(&self.scenes)? {
             if !path.is_dir() {
                 tasks.push(Task::One(path.clone()));
                 continue;
