@@ -73,34 +73,42 @@ def components(frame):
         out += [(g["body"], None, w) for w in (wrench((1, 0), vec(g["at"])), wrench((0, 1), vec(g["at"])), (0, 0, 1))]
     return out
 
-def det(a, b, c):
-    return a[0] * cross(b[1:], c[1:]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * cross(b, c)
+def solve(rows):
+    """Solves equations, each with its right side at the end; what they leave free is 0. None if they contradict."""
+    rows, pivots = [[F(v) for v in row] for row in rows], []
+    for j in range(len(rows[0]) - 1 if rows else 0):
+        at = len(pivots)
+        pivot = next((i for i in range(at, len(rows)) if rows[i][j]), None)
+        if pivot is not None:
+            rows[at], rows[pivot] = rows[pivot], rows[at]
+            rows[at] = own = [v / rows[at][j] for v in rows[at]]
+            rows = [r if i == at or not r[j] else [v - r[j] * o for v, o in zip(r, own)] for i, r in enumerate(rows)]
+            pivots.append(j)
+    found = {j: rows[i][-1] for i, j in enumerate(pivots)}
+    return None if any(row[-1] for row in rows[len(pivots) :]) else [found.get(j, 0) for j in range(len((rows or [[0]])[0]) - 1)]
+
+def on_body(part, body):
+    """The wrench of a component on a body."""
+    return part[2] if part[0] == body else [-v for v in part[2]] if part[1] == body else [0, 0, 0]
 
 def stands(bodies, frame):
     """Yields what is wrong with the forces of a frame."""
     given, parts = frame["forces"], components(frame)
     amounts = [F(v) for three in given["contacts"] + given["grips"] for v in three]
     residual = {k: load(bodies[k], k, frame) for k in frame["placed"]}
-    for amount, (on, other, w) in zip(amounts, parts, strict=True):
-        add(residual[on], w, amount)
-        if other in residual:
-            add(residual[other], w, -amount)
+    for amount, part in zip(amounts, parts, strict=True):
+        for k in set(part[:2]) & set(residual):
+            add(residual[k], on_body(part, k), amount)
     done = set()
-    for body, *three in given["order"]:
-        if body in done or any(body not in parts[k][:2] or done & set(parts[k][:2]) for k in three):
-            yield f"the order is wrong at {bodies[body]['id']}"
-        done.add(body)
-        columns = [[v if parts[k][0] == body else -v for v in parts[k][2]] for k in three]
-        left, whole = [-v for v in residual[body]], det(*columns)
-        if whole == 0:
-            yield f"{bodies[body]['id']} cannot be corrected"
-            continue
-        for i, k in enumerate(three):
-            change = F(det(*(left if j == i else columns[j] for j in range(3)))) / whole
+    for own, by in given["order"]:
+        if done & set(own) or any(done & set(parts[k][:2]) or not set(own) & set(parts[k][:2]) for k in by):
+            yield f"the order is wrong at {own}"
+        done |= set(own)
+        changes = solve([[on_body(parts[k], b)[i] for k in by] + [-residual[b][i]] for b in own for i in range(3)])
+        for k, change in zip(by, changes or []):
             amounts[k] += change
-            for which, sign in zip(parts[k][:2], (1, -1)):
-                if which in residual:
-                    add(residual[which], parts[k][2], sign * change)
+            for body in set(parts[k][:2]) & set(residual):
+                add(residual[body], on_body(parts[k], body), change)
     for k, r in residual.items():
         if any(r):
             yield f"{bodies[k]['id']} does not balance by {float(max(map(abs, r))):.1e} N"
@@ -120,7 +128,13 @@ def falls(bodies, frame):
         a, v, w = vec(m["at"]), vec(m["velocity"]), F(m["spin"])
         motion[m["body"]] = [v[0] + w * a[1], v[1] - w * a[0], w]  # the velocity of the origin, and the spin
     power = lambda w, body: sum(a * b for a, b in zip(w, motion.get(body, (0, 0, 0))))
-    speeds = [power(w, on) - power(w, other) for on, other, w in components(frame)]
+    parts = components(frame)
+    speed = lambda part: power(part[2], part[0]) - power(part[2], part[1])
+    for own, by in frame.get("still", []):
+        changes = solve([[v for b in own for v in on_body(parts[k], b)] + [-speed(parts[k])] for k in by])
+        for i, change in enumerate(changes or []):
+            motion.setdefault(own[i // 3], [F(0)] * 3)[i % 3] += change
+    speeds = [speed(part) for part in parts]
     total = sum(power(load(bodies[k], k, frame), k) for k in frame["placed"])
     for k, c in enumerate(frame["contacts"]):
         n1, n2, t = speeds[3 * k : 3 * k + 3]
@@ -203,7 +217,7 @@ def form(file, frame):
 
 def changed(frame, change):
     """The frame with one change, made in double arithmetic."""
-    frame, ((kind, value),) = json.loads(json.dumps({**frame, "forces": None, "motion": None})), change.items()
+    frame, ((kind, value),) = json.loads(json.dumps({**frame, "forces": None, "motion": None, "still": []})), change.items()
     if kind in ("load_factor", "gravity"):
         frame[kind] = value
     elif kind == "limit":

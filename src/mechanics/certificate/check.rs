@@ -5,9 +5,11 @@
 //! for each body with a residual one system of three equations. `examples/verify/verify.py` does the same, and was
 //! written from the page [`certificate`](crate::doc::certificate).
 
+use std::collections::BTreeSet;
+
 use dashu_ratio::Relaxed as Rational;
 
-use super::fraction::{Vector, Wrench, exact, float, magnitude, solve, square_length, zero};
+use super::fraction::{Vector, Wrench, eliminate, exact, float, magnitude, solve, square_length, zero};
 use super::{BodyForm, Certificate, Change, ContactForm, FrameForm, GripForm, LimitForm, LoadForm};
 
 /// The result of checking a certificate.
@@ -98,6 +100,7 @@ impl Certificate {
             verdict: limit.verdict.clone(),
             forces: limit.forces.clone(),
             motion: limit.motion.clone(),
+            still: limit.still.clone(),
             ..limit.change.of(frame)
         };
         let mut faults =
@@ -175,11 +178,15 @@ impl Certificate {
                 need(forces.contacts.len() == contacts && forces.grips.len() == grips, &|| {
                     format!("frame {n}: the forces are not those of {contacts} contacts and {grips} grips")
                 });
-                for [body, components @ ..] in &forces.order {
-                    need(is_placed(*body) && components.iter().all(|c| *c < 3 * (contacts + grips)), &|| {
-                        format!("frame {n}: the order names a body or a component that is not there")
-                    });
-                }
+            }
+            let steps = frame.forces.iter().flat_map(|forces| &forces.order).chain(&frame.still);
+            for (bodies, components) in steps {
+                let count = 3 * (frame.contacts.len() + frame.grips.len());
+                let fine = bodies.iter().all(|body| is_placed(*body)) && components.iter().all(|c| *c < count);
+                need(fine, &|| format!("frame {n}: a step names a body or a component that is not there"));
+                need(bodies.len().max(components.len()) <= LARGEST_STEP, &|| {
+                    format!("frame {n}: a step has more than {LARGEST_STEP} bodies or components")
+                });
             }
             for motion in frame.motion.iter().flatten() {
                 need(is_placed(motion.body), &|| format!("frame {n}: the motion of a body that is not placed"));
@@ -205,49 +212,43 @@ impl Certificate {
             }
             residual[link.on] = residual[link.on].plus(&wrench);
         }
-        // Carry each residual on to the next body, by three components of the forces.
+        // Carry the residuals on to the next bodies, by changes of the forces.
         let mut done = vec![false; self.bodies.len()];
-        for [body, components @ ..] in &forces.order {
-            let name = &self.bodies[*body].id;
-            if std::mem::replace(&mut done[*body], true) {
-                faults.push(format!("{name} is corrected twice"));
+        for (bodies, components) in &forces.order {
+            let leads_on = components.iter().all(|component| {
+                let ends = links[component / 3].bodies();
+                ends.iter().any(|body| bodies.contains(body)) && ends.iter().all(|body| !done[*body])
+            });
+            let is_new = bodies.iter().all(|body| !std::mem::replace(&mut done[*body], true));
+            let names = || bodies.iter().map(|body| self.bodies[*body].id.as_str()).collect::<Vec<_>>().join(", ");
+            if !leads_on || !is_new {
+                faults.push(format!("the order of the corrections is wrong at {}", names()));
                 continue;
             }
-            let mut columns = Vec::with_capacity(3);
-            for component in components {
-                let link = &links[component / 3];
-                let other = if link.on == *body { link.from } else { Some(link.on) };
-                if link.on != *body && link.from != Some(*body) || other.is_some_and(|other| done[other]) {
-                    faults.push(format!("the correction of {name} uses a force that does not lead on to the ground"));
-                }
-                let wrench = link.wrenches[component % 3].clone();
-                columns.push(if link.on == *body { wrench } else { wrench.negative() });
-            }
-            let left = std::mem::replace(&mut residual[*body], Wrench::zero());
-            let Some(changes) = solve(&columns, &left.negative()) else {
-                faults.push(format!("the three forces that correct {name} cannot carry any residual"));
+            let Some(changes) = correction(&links, &residual, bodies, components) else {
+                faults.push(format!("the forces that correct {} cannot carry what is left over", names()));
                 continue;
             };
             for (component, change) in components.iter().zip(&changes) {
                 amounts[*component] = &amounts[*component] + change;
             }
-            // The other bodies receive the opposite forces. A single other body receives what was left over; in this usual
-            // case no fraction arises, and the numbers stay short.
-            let others = components.map(|component| {
-                let link = &links[component / 3];
-                if link.on == *body { link.from } else { Some(link.on) }
-            });
-            if others == [others[0]; 3] {
-                if let Some(other) = others[0] {
-                    residual[other] = residual[other].plus(&left);
+            let others = components.iter().flat_map(|c| links[c / 3].bodies()).filter(|body| !bodies.contains(body));
+            let others: BTreeSet<usize> = others.collect();
+            // A single other body receives what was left over. In this usual case no fraction arises, and the numbers
+            // stay short.
+            let single = others.iter().next().filter(|_| bodies.len() == 1 && others.len() == 1);
+            if let Some(other) = single.filter(|_| components.iter().all(|c| links[c / 3].bodies().len() == 2)) {
+                residual[*other] = residual[*other].plus(&residual[bodies[0]]);
+            } else {
+                for other in others {
+                    for (component, change) in components.iter().zip(&changes) {
+                        if let Some(wrench) = links[component / 3].on_body(component % 3, other) {
+                            residual[other] = residual[other].plus(&wrench.times(change)).reduced();
+                        }
+                    }
                 }
-                continue;
             }
-            for ((other, column), change) in others.into_iter().zip(&columns).zip(&changes) {
-                if let Some(other) = other {
-                    residual[other] = residual[other].minus(&column.times(change)).reduced();
-                }
-            }
+            bodies.iter().for_each(|body| residual[*body] = Wrench::zero());
         }
         for index in &frame.placed {
             let worst = residual[*index].largest();
@@ -293,11 +294,27 @@ impl Certificate {
             let at_origin = Vector { x: velocity.x + &spin * at.y, y: velocity.y - &spin * at.x };
             motions[motion.body] = Wrench { force: at_origin, moment: spin };
         }
+        let links = self.links(frame);
+        for (bodies, components) in &frame.still {
+            // Find the changes of the motions after which no component has power.
+            let rows = components.iter().map(|component| {
+                let own = |body: &usize| links[component / 3].on_body(component % 3, *body);
+                let mut row: Vec<Rational> =
+                    bodies.iter().flat_map(|body| own(body).unwrap_or_else(Wrench::zero).into_entries()).collect();
+                let powers = links[component / 3].bodies().into_iter().filter_map(|body| Some((body, own(&body)?)));
+                row.push(powers.fold(zero(), |sum, (body, wrench)| sum - wrench.power(&motions[body])));
+                row
+            });
+            let changes = eliminate(rows.collect(), 3 * bodies.len()).unwrap_or_default();
+            for (body, change) in bodies.iter().zip(changes.chunks_exact(3)) {
+                motions[*body] = motions[*body].plus(&Wrench::of_entries(change));
+            }
+        }
         let mut power = zero();
         for index in &frame.placed {
             power += self.load(*index, frame).power(&motions[*index]);
         }
-        for (contact, link) in frame.contacts.iter().zip(self.links(frame)) {
+        for (contact, link) in frame.contacts.iter().zip(&links) {
             let relative = match link.from {
                 Some(from) => motions[link.on].minus(&motions[from]),
                 None => motions[link.on].clone(),
@@ -396,6 +413,46 @@ struct Link {
     normal: Vector,
     wrenches: [Wrench; 3],
 }
+
+impl Link {
+    /// The bodies that the link joins, without the ground.
+    fn bodies(&self) -> Vec<usize> {
+        std::iter::once(self.on).chain(self.from).collect()
+    }
+
+    /// The wrench of a component on a body; `None` if it does not act on this body.
+    fn on_body(&self, component: usize, body: usize) -> Option<Wrench> {
+        let wrench = &self.wrenches[component];
+        match body {
+            on if on == self.on => Some(wrench.clone()),
+            from if Some(from) == self.from => Some(wrench.negative()),
+            _ => None,
+        }
+    }
+}
+
+/// Returns by how much the components are changed so that the bodies balance exactly; `None` if no changes do.
+fn correction(links: &[Link], residual: &[Wrench], bodies: &[usize], components: &[usize]) -> Option<Vec<Rational>> {
+    let column =
+        |component: &usize, body: usize| links[component / 3].on_body(component % 3, body).unwrap_or_else(Wrench::zero);
+    if let ([body], [_, _, _]) = (bodies, components) {
+        let columns: Vec<Wrench> = components.iter().map(|component| column(component, *body)).collect();
+        if let Some(changes) = solve(&columns, &residual[*body].negative()) {
+            return Some(changes.to_vec());
+        }
+    }
+    let rows = bodies.iter().flat_map(|body| {
+        let columns: Vec<Wrench> = components.iter().map(|component| column(component, *body)).collect();
+        [0, 1, 2].map(|i| {
+            let sides = columns.iter().map(|column| column.entries()[i].clone());
+            sides.chain([-residual[*body].entries()[i].clone()]).collect::<Vec<_>>()
+        })
+    });
+    eliminate(rows.collect(), components.len())
+}
+
+/// The largest number of bodies or components of a step. The equations of more would take long to solve exactly.
+pub(super) const LARGEST_STEP: usize = 200;
 
 /// The centroid of an outline without its holes, whatever the direction of the rings; `None` if it has no area.
 fn centroid(body: &BodyForm) -> Option<Vector> {

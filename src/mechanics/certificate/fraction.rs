@@ -79,8 +79,18 @@ impl Wrench {
 
     /// The same numbers as fractions in lowest terms.
     pub fn reduced(&self) -> Wrench {
-        let [x, y, moment] = self.entries().map(|v| v.clone().canonicalize().relax());
+        let [x, y, moment] = self.entries().map(reduced);
         Wrench { force: Vector { x, y }, moment }
+    }
+
+    /// The wrench with these three numbers.
+    pub fn of_entries(entries: &[Rational]) -> Wrench {
+        let [x, y, moment] = [0, 1, 2].map(|i| entries[i].clone());
+        Wrench { force: Vector { x, y }, moment }
+    }
+
+    pub fn into_entries(self) -> [Rational; 3] {
+        [self.force.x, self.force.y, self.moment]
     }
 
     pub fn entries(&self) -> [&Rational; 3] {
@@ -122,4 +132,34 @@ pub(super) fn solve(columns: &[Wrench], wanted: &Wrench) -> Option<[Rational; 3]
     let [a, b, c] = columns else { return None };
     let whole = det(a, b, c);
     (whole != zero()).then(|| [det(wanted, b, c) / &whole, det(a, wanted, c) / &whole, det(a, b, wanted) / &whole])
+}
+
+/// Solves equations, each a row of coefficients with its right side at the end, by elimination (Gauss and Jordan).
+/// Unknowns that the others leave free are 0. `None` if the equations contradict each other.
+pub(super) fn eliminate(mut rows: Vec<Vec<Rational>>, unknowns: usize) -> Option<Vec<Rational>> {
+    let mut pivots = Vec::new();
+    for j in 0..unknowns {
+        let at = pivots.len();
+        let Some(pivot) = (at..rows.len()).find(|row| rows[*row][j] != zero()) else { continue };
+        rows.swap(at, pivot);
+        let own: Vec<Rational> = rows[at].iter().map(|v| reduced(&(v / &rows[at][j]))).collect();
+        for other in rows.iter_mut().filter(|row| row[j] != zero()) {
+            let factor = other[j].clone();
+            for (value, own) in other.iter_mut().zip(&own).filter(|(_, own)| **own != zero()) {
+                *value = reduced(&(&*value - &factor * own));
+            }
+        }
+        rows[at] = own;
+        pivots.push(j);
+    }
+    let mut found = vec![zero(); unknowns];
+    for (row, j) in rows.iter().zip(&pivots) {
+        found[*j] = row[unknowns].clone();
+    }
+    rows[pivots.len()..].iter().all(|row| row[unknowns] == zero()).then_some(found)
+}
+
+/// The same number as a fraction in lowest terms.
+fn reduced(value: &Rational) -> Rational {
+    value.clone().canonicalize().relax()
 }

@@ -162,6 +162,7 @@ impl Limits<'_> {
                 verdict: proved.verdict,
                 forces: proved.forces,
                 motion: proved.motion,
+                still: proved.still,
             });
             if is_exact {
                 break;

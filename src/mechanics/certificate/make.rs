@@ -8,11 +8,12 @@
 
 use std::collections::BinaryHeap;
 
+use super::check::LARGEST_STEP;
 use super::limits::Limits;
-use super::{BodyForm, Certificate, ContactForm, ForcesForm, FrameForm, GripForm, LoadForm, MotionForm, Pair};
+use super::{BodyForm, Certificate, ContactForm, ForcesForm, FrameForm, GripForm, LoadForm, MotionForm, Pair, Step};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict, mechanism_of};
-use crate::mechanics::program::{Force, Program, Scale, columns};
+use crate::mechanics::program::{Column, Force, Program, Scale, columns};
 use crate::mechanics::proof::{Motion, net_power};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::mechanics::solve::{Amounts, Conditioning, Effort, Limit, Status, balance, dual, largest_factor};
@@ -23,6 +24,13 @@ use crate::mechanics::statics::interface::{ContactKind, Interfaces};
 /// If all contacts may press without limit, as a wedged stone does, each normal force gets this share of the heaviest
 /// load.
 const SLACK_OF_WEDGED: f64 = 0.1;
+
+/// A force up to this share of the heaviest load counts as 0 if bodies are corrected at once; a velocity up to this share
+/// of the largest one likewise.
+const NEGLIGIBLE: f64 = 1e-7;
+
+/// The largest number of bodies that are corrected at once.
+const MAX_AT_ONCE: usize = 16;
 
 /// The share of each robot's limit that is kept as slack.
 const SLACK_OF_ROBOTS: f64 = 1e-6;
@@ -77,20 +85,26 @@ impl Certificate {
     }
 
     /// Adds forces to a frame that stands: those with the largest slack, or else those of the analysis, whichever leave
-    /// fewer faults.
+    /// fewer faults. If no order of single bodies corrects them, all bodies are corrected at once.
     pub(super) fn standing(&self, bare: &FrameForm, assembly: &Assembly, found: Option<&FrameAnalysis>) -> FrameForm {
-        let slack = || Some(self.with_forces(bare, assembly, &slack_forces(assembly)?));
-        let listed = || Some(self.with_forces(bare, assembly, &listed_forces(assembly, found?)));
-        self.best(bare, &[&slack, &listed])
+        let slack = || Some(self.with_forces(bare, assembly, &slack_forces(assembly)?, false));
+        let listed = || Some(self.with_forces(bare, assembly, &listed_forces(assembly, found?), false));
+        let slack_at_once = || Some(self.with_forces(bare, assembly, &slack_forces(assembly)?, true));
+        let listed_at_once = || Some(self.with_forces(bare, assembly, &listed_forces(assembly, found?), true));
+        self.best(bare, &[&slack, &listed, &slack_at_once, &listed_at_once])
     }
 
-    /// Adds a motion to a frame that falls: the given one, or else one that opens more contacts.
+    /// Adds a motion to a frame that falls: the given one, or else one that opens more contacts and keeps those exactly
+    /// closed that cannot open.
     pub(super) fn falling(&self, bare: &FrameForm, assembly: &Assembly, mechanism: &[Motion]) -> FrameForm {
-        let listed = || Some(with_motion(bare, assembly, &motion_of_all(assembly, mechanism)));
-        let opening = || Some(with_motion(bare, assembly, &opening_motion(assembly, mechanism)?));
-        let fresh = || Some(with_motion(bare, assembly, &motion_of_all(assembly, &mechanism_of(assembly))));
-        let fresh_opening = || Some(with_motion(bare, assembly, &opening_motion(assembly, &mechanism_of(assembly))?));
-        self.best(bare, &[&listed, &opening, &fresh, &fresh_opening])
+        let listed = || Some(with_motion(bare, assembly, &motion_of_all(assembly, mechanism), false));
+        let opening = || Some(with_motion(bare, assembly, &opening_motion(assembly, mechanism)?, false));
+        let still = || Some(with_motion(bare, assembly, &opening_motion(assembly, mechanism)?, true));
+        let given_still = || Some(with_motion(bare, assembly, &motion_of_all(assembly, mechanism), true));
+        let fresh = || Some(with_motion(bare, assembly, &motion_of_all(assembly, &mechanism_of(assembly)), false));
+        let fresh_opening =
+            || Some(with_motion(bare, assembly, &opening_motion(assembly, &mechanism_of(assembly))?, true));
+        self.best(bare, &[&listed, &opening, &still, &given_still, &fresh, &fresh_opening])
     }
 
     /// Returns the first candidate that proves its verdict exactly, or the one with the fewest faults.
@@ -109,8 +123,14 @@ impl Certificate {
         best.map_or_else(|| bare.clone(), |(_, form)| form)
     }
 
-    /// Adds forces, in newtons, and the order of their correction.
-    fn with_forces(&self, bare: &FrameForm, assembly: &Assembly, forces: &[[f64; 3]]) -> FrameForm {
+    /// Adds forces, in newtons, and the order of their correction. With `at_once`, forces that are nearly 0 become 0, and
+    /// all bodies that touch are corrected in one step.
+    fn with_forces(&self, bare: &FrameForm, assembly: &Assembly, forces: &[[f64; 3]], at_once: bool) -> FrameForm {
+        let mut forces = forces.to_vec();
+        let negligible = NEGLIGIBLE * assembly.heaviest_load();
+        for amount in forces.iter_mut().flatten().filter(|amount| at_once && amount.abs() <= negligible) {
+            *amount = 0.0;
+        }
         let (of_contacts, of_grips) = forces.split_at(assembly.contacts.len());
         let contacts = bare.contacts.iter().zip(of_contacts).map(|(contact, [n1, n2, t])| {
             let length = normal_of(contact).norm();
@@ -119,7 +139,7 @@ impl Certificate {
                 _ => [(n1 + n2) / length, 0.0, t / length],
             }
         });
-        let order = order(assembly, bare, forces, self.bodies.len());
+        let order = order(assembly, bare, &forces, at_once);
         let forces = ForcesForm { contacts: contacts.collect(), grips: of_grips.to_vec(), order };
         FrameForm { forces: Some(forces), ..bare.clone() }
     }
@@ -146,6 +166,7 @@ fn frame_form(scene: &Scene, assembly: &Assembly, number: usize, verdict: Verdic
         grips: grips.collect(),
         forces: None,
         motion: None,
+        still: Vec::new(),
     }
 }
 
@@ -303,13 +324,14 @@ struct Change {
     slack: f64,
 }
 
-/// Returns the order of corrections: bodies far from the ground first, each with three components of forces that lead
-/// on to bodies nearer to the ground.
+/// Returns the order of corrections: bodies far from the ground first, each with components of forces that lead on to
+/// bodies nearer to the ground.
 ///
 /// From the ground outward, the body whose contact with an anchored body has the largest slack is anchored next. If no
-/// body has such a contact with two points and friction, one with three independent components at several contacts is
-/// taken.
-fn order(assembly: &Assembly, frame: &FrameForm, forces: &[[f64; 3]], bodies: usize) -> Vec<[usize; 4]> {
+/// body has such a contact with two points and friction, one with independent components at several contacts is taken.
+/// Three are needed, or fewer if all forces on the body span fewer dimensions, as in a stack without friction. Bodies that
+/// remain, or all bodies with `at_once`, are corrected at once.
+fn order(assembly: &Assembly, frame: &FrameForm, forces: &[[f64; 3]], at_once: bool) -> Vec<Step> {
     let count = assembly.bodies.len();
     let mut links_of: Vec<Vec<usize>> = vec![Vec::new(); count];
     for (k, contact) in assembly.contacts.iter().enumerate() {
@@ -362,48 +384,82 @@ fn order(assembly: &Assembly, frame: &FrameForm, forces: &[[f64; 3]], bodies: us
         Some(contact) => Some(contact.on),
         None => None,
     };
+    // The number of dimensions of the loads and of all forces on each body.
+    let dimensions = (0..count).map(|body| {
+        let mut all: Vec<Change> = links_of[body].iter().flat_map(|link| changes(*link, body)).collect();
+        let load = assembly.bodies[body].load;
+        let wrench = [load.force.x, load.force.y, load.moment / assembly.length];
+        all.push(Change { number: 0, wrench, slack: 0.0 });
+        independent(&all).len()
+    });
+    let dimensions: Vec<usize> = dimensions.collect();
     let whole = |link: usize, body: usize| {
         let changes = changes(link, body);
+        let chosen = independent(&changes);
         let slack = changes.iter().map(|change| change.slack).fold(f64::INFINITY, f64::min);
-        (changes.len() == 3).then_some(slack)
+        (chosen.len() == dimensions[body]).then_some((slack, chosen))
     };
 
     let mut is_anchored = vec![false; count];
-    let mut order: Vec<[usize; 4]> = Vec::new();
-    let mut heap: BinaryHeap<(Slack, usize, usize)> = BinaryHeap::new();
-    let reach = |heap: &mut BinaryHeap<(Slack, usize, usize)>, link: usize, body: usize| {
-        if let Some(slack) = whole(link, body) {
-            heap.push((Slack(slack), link, body));
+    let mut order: Vec<Step> = Vec::new();
+    let mut heap: BinaryHeap<(Slack, Vec<usize>, usize)> = BinaryHeap::new();
+    let reach = |heap: &mut BinaryHeap<(Slack, Vec<usize>, usize)>, link: usize, body: usize| {
+        if let Some((slack, chosen)) = whole(link, body) {
+            heap.push((Slack(slack), chosen, body));
         }
     };
-    for (body, links) in links_of.iter().enumerate() {
+    for (body, links) in links_of.iter().enumerate().filter(|_| !at_once) {
         for link in links.iter().filter(|link| other(**link, body).is_none()) {
             reach(&mut heap, *link, body);
         }
     }
-    loop {
+    while !at_once {
         let next = match heap.pop() {
             Some((_, _, body)) if is_anchored[body] => continue,
-            Some((_, link, body)) => Some((body, [3 * link, 3 * link + 1, 3 * link + 2])),
+            Some((_, chosen, body)) => Some((body, chosen)),
             // No single contact leads on: combine the components of several.
             None => (0..count).filter(|body| !is_anchored[*body]).find_map(|body| {
                 let leading = links_of[body].iter().filter(|link| other(**link, body).is_none_or(|o| is_anchored[o]));
                 let mut all: Vec<Change> = leading.flat_map(|link| changes(*link, body)).collect();
                 all.sort_by(|a, b| b.slack.total_cmp(&a.slack));
-                Some((body, independent(&all)?))
+                Some((body, independent(&all))).filter(|(body, chosen)| chosen.len() == dimensions[*body])
             }),
         };
         let Some((body, components)) = next else { break };
         is_anchored[body] = true;
-        order.push([frame.placed[body], components[0], components[1], components[2]]);
+        order.push((vec![frame.placed[body]], components));
         for link in &links_of[body] {
             if let Some(next) = other(*link, body).filter(|next| !is_anchored[*next]) {
                 reach(&mut heap, *link, next);
             }
         }
     }
+    // Correct the remaining bodies together, with those that they touch.
+    for first in 0..count {
+        if std::mem::replace(&mut is_anchored[first], true) {
+            continue;
+        }
+        let (mut bodies, mut all) = (vec![first], Vec::new());
+        let mut seen = 0;
+        while let Some(body) = bodies.get(seen).copied() {
+            seen += 1;
+            for link in &links_of[body] {
+                if let Some(next) = other(*link, body).filter(|next| !std::mem::replace(&mut is_anchored[*next], true))
+                {
+                    bodies.push(next);
+                }
+                all.extend(changes(*link, body).into_iter().filter(|change| change.slack > 0.0));
+            }
+        }
+        all.sort_by(|a, b| b.slack.total_cmp(&a.slack).then(a.number.cmp(&b.number)));
+        let mut numbers: Vec<usize> = all.iter().map(|change| change.number).collect();
+        numbers.dedup();
+        numbers.truncate(LARGEST_STEP);
+        if bodies.len() <= MAX_AT_ONCE {
+            order.push((bodies.iter().map(|body| frame.placed[*body]).collect(), numbers));
+        }
+    }
     order.reverse();
-    debug_assert!(order.iter().all(|[body, ..]| *body < bodies));
     order
 }
 
@@ -428,12 +484,15 @@ impl Ord for Slack {
 /// Two directions count as dependent if the sine of their angle is less than this.
 const DEPENDENT: f64 = 1e-6;
 
-/// Returns the first three components in the list whose forces and moments are independent.
-fn independent(changes: &[Change]) -> Option<[usize; 3]> {
+/// Returns the first components in the list, at most three, whose forces and moments are independent.
+fn independent(changes: &[Change]) -> Vec<usize> {
     let mut chosen: Vec<(usize, [f64; 3])> = Vec::new();
     let dot = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     for change in changes {
         let size = dot(&change.wrench, &change.wrench).sqrt();
+        if size == 0.0 || chosen.len() == 3 {
+            continue;
+        }
         let mut rest = change.wrench.map(|v| v / size);
         // Gram and Schmidt: subtract the parts along the chosen directions.
         for (_, direction) in &chosen {
@@ -444,11 +503,8 @@ fn independent(changes: &[Change]) -> Option<[usize; 3]> {
         if left > DEPENDENT {
             chosen.push((change.number, rest.map(|v| v / left)));
         }
-        if let [(a, _), (b, _), (c, _)] = chosen[..] {
-            return Some([a, b, c]);
-        }
     }
-    None
+    chosen.into_iter().map(|(number, _)| number).collect()
 }
 
 /// Returns the motion of each body; zero for bodies without an entry, which are at rest.
@@ -461,7 +517,8 @@ fn motion_of_all(assembly: &Assembly, mechanism: &[Motion]) -> Vec<Motion> {
 }
 
 /// Returns a motion in which every contact opens a little more than in the motion of the analysis, so that rounding does
-/// not close it. `None` if there is no motion that opens all contacts of a moving component.
+/// not close it. No contact closes, and the sum of all openings is the largest if each counts up to 1. `None` if the
+/// program has no result.
 fn opening_motion(assembly: &Assembly, mechanism: &[Motion]) -> Option<Vec<Motion>> {
     let mut motions = motion_of_all(assembly, mechanism);
     for component in assembly.components() {
@@ -474,9 +531,19 @@ fn opening_motion(assembly: &Assembly, mechanism: &[Motion]) -> Option<Vec<Motio
             continue;
         }
         let program = Program::new(&component, Scale::from_assembly(&component));
-        let columns = columns(&program);
-        let cost = |column: &crate::mechanics::program::Column| {
-            if matches!(column.force, Force::Ray { .. }) { -1.0 } else { 0.0 }
+        // Each contact force may be arbitrarily large without a cost, and up to 1 with a gain. In the kinematic dual, no
+        // contact closes, and an opening counts up to 1.
+        let mut columns = columns(&program);
+        let rays = columns.iter().filter(|column| matches!(column.force, Force::Ray { .. }));
+        let rays: Vec<Column> = rays.copied().collect();
+        let rays = rays.into_iter().map(|mut ray| {
+            ray.limit = 1.0;
+            ray
+        });
+        columns.extend(rays);
+        let cost = |column: &Column| {
+            let is_gain = matches!(column.force, Force::Ray { .. }) && column.limit.is_finite();
+            if is_gain { -1.0 } else { 0.0 }
         };
         let none = vec![0.0; program.loads.len()];
         let solved = dual(&none, &columns, Conditioning::Full, &mut Effort::default(), cost);
@@ -502,9 +569,17 @@ fn opening_motion(assembly: &Assembly, mechanism: &[Motion]) -> Option<Vec<Motio
 }
 
 /// Adds a motion. The motion of a held body is given at its grip point, which stands still exactly if the robot has no
-/// limit.
-fn with_motion(bare: &FrameForm, assembly: &Assembly, motions: &[Motion]) -> FrameForm {
-    let forms = assembly.bodies.iter().zip(motions).enumerate().map(|(number, (body, motion))| {
+/// limit. With `still`, velocities that are nearly 0 become 0, and contacts that nearly stay closed stay so exactly.
+fn with_motion(bare: &FrameForm, assembly: &Assembly, motions: &[Motion], still: bool) -> FrameForm {
+    let speed = |motion: &Motion| motion.velocity.norm().max(motion.spin.abs() * assembly.length);
+    let negligible = NEGLIGIBLE * motions.iter().map(speed).fold(0.0, f64::max);
+    let rests = |motion: &Motion| still && speed(motion) <= negligible;
+    let motions: Vec<Motion> = motions
+        .iter()
+        .map(|motion| if rests(motion) { Motion { velocity: Vector::zeros(), spin: 0.0, ..*motion } } else { *motion })
+        .collect();
+    let steps = if still { still_steps(bare, assembly, &motions, negligible) } else { Vec::new() };
+    let forms = assembly.bodies.iter().zip(&motions).enumerate().map(|(number, (body, motion))| {
         let grip = assembly.grips.iter().find(|grip| grip.body == number);
         let at = grip.map_or(body.centroid, |grip| grip.at);
         let mut velocity = motion.about(body.centroid, at);
@@ -517,5 +592,52 @@ fn with_motion(bare: &FrameForm, assembly: &Assembly, motions: &[Motion]) -> Fra
         MotionForm { body: bare.placed[number], at: pair(at), velocity: [velocity.x, velocity.y], spin }
     });
     let moving = forms.filter(|motion| motion.velocity != [0.0; 2] || motion.spin != 0.0);
-    FrameForm { motion: Some(moving.collect()), ..bare.clone() }
+    FrameForm { motion: Some(moving.collect()), still: steps, ..bare.clone() }
+}
+
+/// Returns, for each group of moving bodies, the components that have no power along the motion and shall have none at all.
+fn still_steps(bare: &FrameForm, assembly: &Assembly, motions: &[Motion], negligible: f64) -> Vec<Step> {
+    let moves = |body: usize| motions[body].velocity != Vector::zeros() || motions[body].spin != 0.0;
+    let velocity = |body: usize, at: Point| motions[body].about(assembly.bodies[body].centroid, at);
+    // The bodies that each component joins.
+    let mut closed: Vec<(usize, Vec<usize>)> = Vec::new();
+    for (k, contact) in assembly.contacts.iter().enumerate() {
+        let bodies: Vec<usize> = std::iter::once(contact.on).chain(contact.from).filter(|body| moves(*body)).collect();
+        let mut slides = true;
+        for (i, at) in contact.points.iter().enumerate().take(bare.contacts[k].points.len()) {
+            let from = contact.from.map_or(Vector::zeros(), |from| velocity(from, *at));
+            let relative = velocity(contact.on, *at) - from;
+            let sliding = relative.dot(&contact.tangent()).abs();
+            if relative.dot(&contact.normal) - contact.friction * sliding <= negligible {
+                closed.push((3 * k + i, bodies.clone()));
+                slides &= sliding > negligible || contact.friction == 0.0;
+            }
+        }
+        if !slides {
+            closed.push((3 * k + 2, bodies));
+        }
+    }
+    for (k, grip) in assembly.grips.iter().enumerate() {
+        let limits = [grip.limits.fx, grip.limits.fy, grip.limits.torque];
+        let held = (0..3).filter(|i| limits[*i].is_infinite() && moves(grip.body));
+        closed.extend(held.map(|i| (3 * (assembly.contacts.len() + k) + i, vec![grip.body])));
+    }
+    closed.retain(|(_, bodies)| !bodies.is_empty());
+    let mut steps: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
+    for (component, bodies) in closed {
+        // Join the groups that share a body with this component.
+        let (joined, rest): (Vec<_>, Vec<_>) =
+            steps.into_iter().partition(|(group, _)| group.iter().any(|body| bodies.contains(body)));
+        let mut group: Vec<usize> = joined.iter().flat_map(|(group, _)| group.clone()).chain(bodies).collect();
+        group.sort_unstable();
+        group.dedup();
+        let components = joined.into_iter().flat_map(|(_, components)| components).chain([component]).collect();
+        steps = rest;
+        steps.push((group, components));
+    }
+    steps.retain(|(group, components)| group.len() <= MAX_AT_ONCE && components.len() <= LARGEST_STEP);
+    for body in steps.iter_mut().flat_map(|(group, _)| group) {
+        *body = bare.placed[*body];
+    }
+    steps
 }

@@ -26,6 +26,10 @@ pub use check::{Checked, FrameCheck, LimitCheck};
 /// A point or a vector: x to the right and y up, in metres, newtons or without unit.
 pub type Pair = [f64; 2];
 
+/// Bodies and components of forces for which equations are solved exactly. Component 3k + i is number i (0, 1, 2) of
+/// contact k; the grips follow the contacts.
+pub type Step = (Vec<usize>, Vec<usize>);
+
 /// The proofs of a scene's frames, and the structure that they are about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -119,6 +123,10 @@ pub struct FrameForm {
     /// The motion, if the frame falls. A body without an entry is at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<Vec<MotionForm>>,
+    /// In each step, the motion of the bodies is changed so that the components have no power at all: their contacts
+    /// neither open nor close.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub still: Vec<Step>,
 }
 
 /// A contact. Its normal n points into the first body. At each point, a normal force presses along n; one friction
@@ -164,10 +172,9 @@ pub struct ForcesForm {
     pub contacts: Vec<[f64; 3]>,
     /// For each grip the force x and y on the body, N, and the torque, N·m.
     pub grips: Vec<[f64; 3]>,
-    /// For each body with a residual, in the order in which they are corrected: the index of the body and three
-    /// components that are changed so that the body balances exactly. Component 3k + i is number i (0, 1, 2) of contact k;
-    /// the grips follow the contacts. The other body of such a component is ground, or comes later in this list.
-    pub order: Vec<[usize; 4]>,
+    /// In each step, the components are changed so that the bodies balance exactly. The other body of a component is
+    /// ground, or is corrected in a later step.
+    pub order: Vec<Step>,
 }
 
 /// The motion of a rigid body.
@@ -202,6 +209,9 @@ pub struct LimitForm {
     /// The motion, if the changed frame falls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<Vec<MotionForm>>,
+    /// Steps as those of a frame.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub still: Vec<Step>,
 }
 
 /// One change of a frame. [`Change::of`] makes it, in double arithmetic.
@@ -230,7 +240,7 @@ impl Change {
 
     /// Returns the changed frame, without proof.
     pub fn of(&self, frame: &FrameForm) -> FrameForm {
-        let mut changed = FrameForm { forces: None, motion: None, ..frame.clone() };
+        let mut changed = FrameForm { forces: None, motion: None, still: Vec::new(), ..frame.clone() };
         match self {
             Change::LoadFactor(factor) => changed.load_factor = *factor,
             Change::Gravity(gravity) => changed.gravity = *gravity,
@@ -304,7 +314,7 @@ impl Certificate {
     /// Returns in which part this certificate is about another structure than `other`; `None` if the structures are
     /// equal. The proofs may differ.
     pub fn differs_from(&self, other: &Certificate) -> Option<&'static str> {
-        let form = |frame: &FrameForm| FrameForm { forces: None, motion: None, ..frame.clone() };
+        let form = |frame: &FrameForm| FrameForm { forces: None, motion: None, still: Vec::new(), ..frame.clone() };
         if self.bodies != other.bodies {
             Some("the bodies differ")
         } else if [self.distance, self.shortest] != [other.distance, other.shortest]

@@ -13,7 +13,7 @@ pub mod factor;
 pub mod random;
 mod shape;
 mod simplex;
-mod small;
+pub mod small;
 mod sums;
 pub mod touch;
 mod wedge;
