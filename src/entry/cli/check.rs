@@ -16,6 +16,7 @@ use crate::entry::cli::verify;
 use crate::entry::request::CheckArgs;
 use crate::mechanics::analysis::{Analysis, Options, Verdict};
 use crate::mechanics::scene::{Note, Scene};
+use crate::products::figure::{self, Kind};
 use crate::products::result::{Layout, Timing, refusal, to_json_of, to_json_with_blocks};
 use crate::products::wording::number::letter;
 use crate::products::wording::sensitivity;
@@ -123,11 +124,13 @@ impl Check {
         let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let progress = Progress::begin(sources.len(), shown);
         let options = self.what.base();
+        let is_table = !self.json && !terminal.is_quiet();
         sources
             .par_iter()
             .map(|(_, source)| {
                 progress.doing(&source.name());
-                let answer = source::isolated(&source.path, || self.answer(source, &options, layout, width)).flatten();
+                let answer =
+                    source::isolated(&source.path, || self.answer(source, &options, layout, width, is_table)).flatten();
                 progress.step();
                 answer
             })
@@ -141,15 +144,26 @@ impl Check {
     }
 
     /// Analyses one scene. Returns its exit status, the verdicts of its frames, and its JSON or its table; the other of
-    /// the two is empty.
+    /// the two is empty. With `is_table`, the table is printed.
     fn answer(
         &self,
         source: &Source,
         options: &Options,
         layout: Layout,
         width: Option<usize>,
+        is_table: bool,
     ) -> Result<SceneResult, CliError> {
-        let options = self.what.capacity.add_to(*options, &source.scene)?;
+        let mut options = self.what.capacity.add_to(*options, &source.scene)?;
+        let detail = Detail {
+            full: self.verbose.then_some(if self.no_timing { Timing::LeftOut } else { Timing::Included }),
+            margins: options.margins,
+            ranges: self.explain,
+        };
+        // The table states the same margin as the line below a picture, if it takes little time.
+        if is_table && !options.margins && !options.verdict_only {
+            let kinds = Kind::Forces.line_margins(&source.scene, &figure::Options::default());
+            options = kinds.map_or(options, |kinds| options.margins(true).margin_kinds(kinds));
+        }
         let mut analysis = self.what.analysed(&source.scene, &options);
         if let Some(output) = &self.certificate {
             if !source.scene.cases().is_empty() {
@@ -170,7 +184,7 @@ impl Check {
             };
             return Ok((ending, verdicts, json, Page::default()));
         }
-        let mut page = table::of(&source.name(), &analysis, self.detail(timing), width);
+        let mut page = table::of(&source.name(), &analysis, &detail, width);
         page.append(&sensitivities(&analysis));
         page.append(&notes_page(&analysis.notes));
         page.end();
@@ -191,10 +205,6 @@ impl Check {
             page.append(&table::explained(width));
         }
         page
-    }
-
-    fn detail(&self, timing: Timing) -> Detail {
-        if self.verbose { Detail::Full(timing) } else { Detail::Short }
     }
 }
 

@@ -15,6 +15,7 @@ use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{Note, NoteCode, Scene};
 use crate::pictures::output::file::Existing;
 use crate::products::result::import_json;
+use crate::products::wording::number::quantity;
 use crate::sources::import::{self, Format, Imported, Options, Remark, STONES, Stone};
 use crate::text::{Word, typed_word};
 
@@ -278,17 +279,18 @@ impl Import {
         }
         for snapped in imported.snapped.iter().take(MAX_LISTED_BODIES) {
             page.line(&format!(
-                "  snapped {1} of {0} by up to {2:.2e} m, to {3}",
+                "  snapped {1} of {0} by up to {2}, to {3}",
                 snapped.body,
                 count(snapped.corners, "corner", "corners"),
-                snapped.distance,
+                quantity(snapped.distance, "m"),
                 snapped.to.join(", ")
             ));
         }
         if imported.snapped.len() > MAX_LISTED_BODIES {
             let more = imported.snapped.len() - MAX_LISTED_BODIES;
             let most = imported.snapped.iter().map(|s| s.distance).fold(0.0, f64::max);
-            page.line(&format!("  snapped {more} more; the largest move of all is {most:.2e} m; --json lists them"));
+            let most = quantity(most, "m");
+            page.line(&format!("  snapped {more} more; the largest move of all is {most}; --json lists them"));
         }
         terminal.notes(&page);
     }

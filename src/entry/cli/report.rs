@@ -121,8 +121,7 @@ impl Report {
             return Err(complaints);
         }
         if self.compare && pieces.len() > 1 {
-            let words =
-                "The table shows the margins, friction, blocks and largest forces of the second scene of each pair.";
+            let words = "The table shows the margins, blocks and largest forces of the second scene of each pair.";
             notes.push(words.to_owned());
         }
         for complaint in &complaints {

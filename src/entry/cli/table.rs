@@ -5,32 +5,38 @@ use std::fmt::Write;
 use clap::builder::styling::{AnsiColor, Style};
 
 use crate::entry::cli::page::{Page, broken, seen};
-use crate::mechanics::analysis::{Analysis, Contact, EffectName, FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
+use crate::mechanics::scene::Scene;
 use crate::mechanics::scene::format::Expectation;
-use crate::mechanics::scene::{Frame, Scene};
 use crate::products::result::Timing;
-use crate::products::wording::number::{amount, duration, letter, tenths};
+use crate::products::wording::number::{duration, letter, quantity, tenths};
+use crate::products::wording::thrust::thrust_range;
 use crate::products::wording::verdict::plain;
 use crate::products::wording::{capacity, case, failure, margin, movement, placement, proof, removable};
 use crate::text::heading;
 
 /// The words in the tables and in the lines below them, with their meanings.
-const MEANINGS: [[&str; 2]; 16] = [
+const MEANINGS: [[&str; 2]; 15] = [
     [
         "stands",
         "some set of admissible forces balances every block. The blocks are rigid, laid dry and at rest; a balance that exists only by wedging counts too.",
     ],
     ["falls", "no set of admissible forces balances every block, and a motion proves it."],
     ["undecided", "it was proved neither that the frame stands nor that it falls; the reason is below the row."],
-    ["weight", "the weight of all placed blocks, in newtons"],
-    ["largest", "the largest force between two bodies, in newtons"],
-    ["between", "the two bodies between which the largest force acts"],
-    ["friction", "the largest ratio of friction force to friction limit at any contact"],
-    ["robots", "the largest ratio of a robot's force or torque to its limit"],
-    ["-", "no value, because the frame falls or is undecided"],
+    ["weight", "the weight of all placed blocks"],
+    [
+        "margin",
+        "how far the frame is from falling, or what it lacks, rounded to the safe side, if this takes little time; --margins computes every margin",
+    ],
+    [
+        "balance",
+        "many sets of forces can balance a frame; verdict and margins hold for all of them. The numbers of robots, and of forces with --verbose, belong to one of them, that of least forces; --explain prints the range of the horizontal thrust",
+    ],
+    ["robots", "in one balance, the largest ratio of a robot's force or torque to its limit"],
+    ["-", "no value, because it is not known or takes long to compute"],
     ["comes off", "the two bodies separate; the number is the pull that would have to hold them together"],
     ["slides", "the contact exceeds its friction; the number is the force that is missing"],
-    ["forces", "with --verbose: the sum of all normal, friction and robot forces"],
+    ["forces", "with --verbose: the sum of all normal, friction and robot forces of one balance"],
     ["sticking", "with --verbose: the sum of the missing forces, with which the frame would stand"],
     [
         "proof",
@@ -67,24 +73,24 @@ const MAX_FRAME_TITLE: usize = 40;
 /// Titles of scenes with more columns are shortened, because a terminal would break their line.
 const MAX_SCENE_TITLE: usize = 60;
 
-/// Names of bodies with more columns are shortened.
-const MAX_BODY_NAME: usize = 30;
 /// On narrow terminals, titles of frames keep at least this many columns.
 const MIN_TITLE: usize = 8;
 
-/// If rows are too wide, titles of frames and names of bodies are first shortened to no less than these numbers of
+/// If rows are too wide, titles of frames and margins are first shortened to no less than these numbers of
 /// columns. If rows are then still too wide, both are shortened further.
 const READABLE_WIDTHS: [usize; 2] = [20, 12];
-/// The index of the column with the names of the two bodies.
-const BODIES_COLUMN: usize = 4;
+/// The index of the column with the headline margin.
+const MARGIN_COLUMN: usize = 3;
 
 /// The amount of detail in a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Detail {
-    /// The most important results only.
-    Short,
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Detail {
     /// Also the sums of forces, the proof and the contact tolerance, and the time if it is included.
-    Full(Timing),
+    pub full: Option<Timing>,
+    /// Also all computed margins.
+    pub margins: bool,
+    /// Also the range of the horizontal thrust.
+    pub ranges: bool,
 }
 
 /// Writes the table of one scene, for a terminal of `width` columns.
@@ -92,7 +98,7 @@ pub(crate) enum Detail {
 /// If the rows would be wider than that, titles and names are shortened as far as needed. If that is not enough, every
 /// value is written on a separate line. The remarks below the rows may be wider than the terminal; [`Page::fitted`]
 /// breaks them.
-pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<usize>) -> Page {
+pub(crate) fn of(name: &str, analysis: &Analysis, detail: &Detail, width: Option<usize>) -> Page {
     let scene = &analysis.scene;
     let mut page = Page::default();
     page.styled(Style::new().bold(), name);
@@ -109,7 +115,7 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<
     let heads: Vec<String> = COLUMN_HEADS[..columns].iter().map(|h| (*h).to_owned()).collect();
     let mut rows: Vec<Vec<String>> = (scene.frames.iter().zip(&analysis.frames).enumerate())
         .map(|(i, (step, f))| {
-            let mut cells = row(scene, label(scene, i, &step.title), f);
+            let mut cells = row(scene, i, label(scene, i, &step.title), f);
             cells.truncate(columns);
             cells
         })
@@ -120,18 +126,18 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<
     if fits {
         line(&mut page, &heads, &widths, [dim, dim]);
     }
-    for ((frame, state), cells) in analysis.frames.iter().zip(&scene.frames).zip(&rows) {
+    for ((number, frame), cells) in analysis.frames.iter().enumerate().zip(&rows) {
         let styles = [Style::new(), style(frame.verdict)];
         if fits {
             line(&mut page, cells, &widths, styles)
         } else {
             record(&mut page, &heads, cells, styles)
         }
-        for remark in remarks(scene, frame, state, detail) {
+        for remark in remarks(analysis, number, detail) {
             page.line(&format!("      {remark}"));
         }
     }
-    let matters = scene.healed.corners > 0 || scene.healed.kept > 0 || detail != Detail::Short;
+    let matters = scene.healed.corners > 0 || scene.healed.kept > 0 || detail.full.is_some();
     if let Some(words) = scene.tolerance_words().filter(|_| matters) {
         page.styled(dim, &format!("  {words}"));
         page.end();
@@ -140,7 +146,7 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: Detail, width: Option<
 }
 
 /// The headings of the columns. The last column is present only if there are robots.
-const COLUMN_HEADS: [&str; 7] = ["frame", "verdict", "weight", "largest", "between", "friction", "robots"];
+const COLUMN_HEADS: [&str; 5] = ["frame", "verdict", "weight", "margin", "robots"];
 
 fn widths(rows: &[Vec<String>], heads: &[String]) -> Vec<usize> {
     let widest = |column: usize| {
@@ -150,11 +156,11 @@ fn widths(rows: &[Vec<String>], heads: &[String]) -> Vec<usize> {
     (0..heads.len()).map(widest).collect()
 }
 
-/// Shortens titles of frames and names of bodies so that rows have at most `width` columns; false if this is impossible.
+/// Shortens titles of frames and margins so that rows have at most `width` columns; false if this is impossible.
 fn cut(rows: &mut [Vec<String>], heads: &[String], width: usize) -> bool {
-    let least = [MIN_TITLE.max(seen(&heads[0])), seen(&heads[BODIES_COLUMN])];
+    let least = [MIN_TITLE.max(seen(&heads[0])), seen(&heads[MARGIN_COLUMN])];
     for (column, least) in
-        [(0, READABLE_WIDTHS[0]), (BODIES_COLUMN, READABLE_WIDTHS[1]), (BODIES_COLUMN, least[1]), (0, least[0])]
+        [(0, READABLE_WIDTHS[0]), (MARGIN_COLUMN, READABLE_WIDTHS[1]), (MARGIN_COLUMN, least[1]), (0, least[0])]
     {
         let widths = widths(rows, heads);
         let beyond = row_width(&widths).saturating_sub(width);
@@ -192,7 +198,7 @@ fn row_width(widths: &[usize]) -> usize {
 fn line(page: &mut Page, cells: &[String], widths: &[usize], styles: [Style; 2]) {
     for (column, (cell, width)) in cells.iter().zip(widths).enumerate() {
         let gap = " ".repeat(width.saturating_sub(seen(cell)));
-        let is_words = matches!(column, 0 | 1 | BODIES_COLUMN);
+        let is_words = matches!(column, 0 | 1 | MARGIN_COLUMN);
         page.words(COLUMN_GAPS[usize::from(column > 0)]);
         if !is_words {
             page.words(&gap);
@@ -246,29 +252,18 @@ fn label(scene: &Scene, number: usize, title: &str) -> String {
 }
 
 /// Returns the cells of the row of a frame, in the order of [`COLUMN_HEADS`].
-fn row(scene: &Scene, label: String, frame: &FrameAnalysis) -> Vec<String> {
+fn row(scene: &Scene, number: usize, label: String, frame: &FrameAnalysis) -> Vec<String> {
     // The forces of a frame that falls are balanced only together with the missing forces, and the forces of an
     // undecided frame are not proved. So they are not shown.
     let stands = frame.verdict == Verdict::Stable;
-    let exists = |cell: String| if stands { cell } else { "-".into() };
-    let force = |contact: &Contact| contact.resultant.force.norm();
-    let contacts = frame.contacts.iter();
-    let largest = contacts.clone().max_by(|a, b| force(a).total_cmp(&force(b)));
-    let between = largest.map_or("-".into(), |contact| {
-        let [a, b] = contact.interface.bodies.map(|id| scene.name(id));
-        format!("{}/{}", heading(a, MAX_BODY_NAME), heading(b, MAX_BODY_NAME))
-    });
-    let friction = contacts.map(|c| c.friction_used).fold(0.0, f64::max);
-    let limit = frame.robots.iter().map(|r| r.limit_used);
-    vec![
-        label,
-        plain(frame.verdict).into(),
-        amount(frame.weight, scene.units.force()),
-        exists(amount(largest.map_or(0.0, force), scene.units.force())),
-        exists(between),
-        exists(tenths(friction)),
-        exists(if frame.robots.is_empty() { "none".into() } else { tenths(limit.fold(0.0, f64::max)) }),
-    ]
+    let margin = margin::governing(scene, number, frame).words.into_iter().next();
+    let robots = match frame.robots.as_slice() {
+        _ if !stands => "-".into(),
+        [] => "none".into(),
+        robots => tenths(robots.iter().map(|r| r.limit_used).fold(0.0, f64::max)),
+    };
+    let weight = quantity(frame.weight, scene.units.force());
+    vec![label, plain(frame.verdict).into(), weight, margin.unwrap_or_else(|| "-".into()), robots]
 }
 
 /// Returns a line with the sum of all forces, the sum of the missing forces, the proof and the time.
@@ -276,11 +271,11 @@ fn sums(scene: &Scene, frame: &FrameAnalysis, timing: Timing) -> String {
     let sticking = match (is_left_out(frame), frame.total_sticking == 0.0) {
         (true, _) => "unknown".into(),
         (_, true) => "none".into(),
-        _ => amount(frame.total_sticking, scene.units.force()),
+        _ => quantity(frame.total_sticking, scene.units.force()),
     };
     let mut words = format!(
         "forces {}, sticking {sticking}; proof: {}",
-        amount(frame.total_force, scene.units.force()),
+        quantity(frame.total_force, scene.units.force()),
         proof::short(frame.proof)
     );
     if timing == Timing::Included {
@@ -296,10 +291,15 @@ fn is_left_out(frame: &FrameAnalysis) -> bool {
 }
 
 /// Returns the remarks below the row of a frame. Each remark is printed on a separate line.
-fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) -> Vec<String> {
+fn remarks(analysis: &Analysis, number: usize, detail: &Detail) -> Vec<String> {
+    let (scene, frame) = (&*analysis.scene, &analysis.frames[number]);
+    let state = &scene.frames[number];
     let mut remarks = Vec::new();
-    if let Detail::Full(timing) = detail {
+    if let Some(timing) = detail.full {
         remarks.push(sums(scene, frame, timing));
+    }
+    if detail.ranges {
+        remarks.extend(thrust_range(analysis, number));
     }
     remarks.extend(match (state.expected, frame.verdict) {
         (Some(Expectation::Unstable), Verdict::Unstable) => Some("falls, as expected".to_owned()),
@@ -325,7 +325,9 @@ fn remarks(scene: &Scene, frame: &FrameAnalysis, state: &Frame, detail: Detail) 
         remarks.push(format!("wedging: {}", effect.why));
     }
     remarks.extend(case::lines(frame));
-    remarks.extend(margin::lines(scene, frame));
+    if detail.margins {
+        remarks.extend(margin::lines(scene, frame));
+    }
     remarks.extend(frame.placement.as_ref().map(|p| format!("placement: {}", placement::sentence(scene, frame, p))));
     let moved = frame.movements.iter().map(|m| format!("movement: {}", movement::sentence(scene, frame, m)));
     remarks.extend(moved);

@@ -151,7 +151,7 @@ impl Kind {
     /// Returns the margins that the line of the verdict gives if they are cheap: those of a figure of one frame of few
     /// blocks, and the factor on the loads. Other margins of many blocks would take far longer than the figure itself.
     #[cfg(any(feature = "cli", feature = "wasm"))]
-    fn line_margins(self, scene: &Scene, options: &Options) -> Option<MarginKinds> {
+    pub(crate) fn line_margins(self, scene: &Scene, options: &Options) -> Option<MarginKinds> {
         let [frame] = &scene.frames[..] else { return None };
         let about = self.about();
         if !options.verdict_margin || about.hides_verdicts || about.shows_one_block || about.states_own_margin {

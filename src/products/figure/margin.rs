@@ -132,7 +132,7 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
     let Some(own) = around(vectors.iter().map(|v| tip(start, *v)).chain([start])) else { return };
     // The amounts stand below the arrows.
     let size = canvas.look.text * theme.sizes.amount;
-    let words: Vec<String> = values.iter().map(|(value, _)| parameter(toward).value(*value)).collect();
+    let words: Vec<String> = values.iter().map(|(value, _)| parameter(toward).end(*value, *value >= 0.0)).collect();
     let wide = words.iter().map(|words| text::width(words, Face::Sans, size)).fold(own.width, f64::max);
     let left = canvas.extent().at.x - canvas.mm(GRAVITY_DISTANCE) - wide;
     let from = PagePoint::new(left + (wide - own.width) / 2.0 - own.at.x, canvas.structure.at.y - own.at.y);

@@ -138,14 +138,12 @@ impl Writer {
         let verdict = plain(badge.verdict);
         let headline = match badge.headline.as_str() {
             "" => String::new(),
-            words => format!(" {}.", markdown(words)),
+            words => format!(" · {}", markdown(words)),
         };
-        self.line(&format!("**{mark} {verdict}.{headline}**\n"));
-        if let Some(bar) = &badge.bar {
-            let words = markdown(&bar.short());
-            self.line(&format!("`{}` {words}\n", drawn(bar)));
+        self.line(&format!("**{mark} {verdict}{headline}**\n"));
+        if !badge.sentence.is_empty() {
+            self.line(&format!("{}\n", markdown(&badge.sentence)));
         }
-        self.line(&format!("{}\n", markdown(&badge.sentence)));
     }
 
     fn file(&mut self, svg: Vec<u8>) -> String {

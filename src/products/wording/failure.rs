@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::number::{self, NO_BREAK, digits, listed, place, quantity};
+use super::number::{NO_BREAK, listed, place, quantity};
 use crate::mechanics::analysis::{Failure, FrameAnalysis};
 use crate::mechanics::scene::{BlockId, BodyId, Scene, Unit};
 use crate::mechanics::statics::interface::{ContactKind, Interfaces};
@@ -57,7 +57,9 @@ pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
 /// Describes a failure, its position and the missing force, as a sentence without a full stop.
 pub fn sentence(scene: &Scene, failure: &Failure) -> String {
     let units = scene.units;
-    let newtons = |value: f64| number::amount(value, units.force());
+    let newtons = |value: f64| quantity(value, units.force());
+    // A component that is a rounding error of the other one is 0.
+    let part = |value: f64, whole: f64| newtons(if value.abs() <= 1e-9 * whole { 0.0 } else { value });
     match *failure {
         Failure::Tension { bodies: [a, b], at, force } => format!(
             "{} comes off {} at {}: holding them together would need a pull of {}",
@@ -74,19 +76,18 @@ pub fn sentence(scene: &Scene, failure: &Failure) -> String {
             newtons(force.norm())
         ),
         Failure::RobotForce { robot, block, force, .. } => format!(
-            "robot {} cannot hold {}: it would need an additional force of ({}, {}) {} beyond its limits",
+            "robot {} cannot hold {}: it would need an additional force of ({}, {}) beyond its limits",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
-            digits(units.force().value_from_si(force.x)),
-            digits(units.force().value_from_si(force.y)),
-            units.force().symbol()
+            part(force.x, force.norm()),
+            part(force.y, force.norm())
         ),
         Failure::RobotTorque { robot, block, torque, .. } => format!(
             "robot {} cannot hold {}: it would need an additional {} torque of {} beyond its limit",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
             if torque < 0.0 { "clockwise" } else { "anticlockwise" },
-            number::amount(torque.abs(), units.torque())
+            quantity(torque.abs(), units.torque())
         ),
     }
 }
@@ -113,32 +114,31 @@ pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
     }
 }
 
-/// Describes the missing force of a failure as a clause: `block a would have to stick to block b with 8 N`. `write`
-/// formats a value with its unit.
-pub fn missing_sentence(scene: &Scene, failure: &Failure, write: &dyn Fn(f64, Unit) -> String) -> String {
+/// Describes the missing force of a failure as a clause: `block a would have to stick to block b with 8 N`.
+pub fn missing_sentence(scene: &Scene, failure: &Failure) -> String {
     let named = |id: &BodyId| named(scene, *id);
     match failure {
         Failure::Tension { bodies: [a, b], force, .. } => format!(
             "{} would have to stick to {} with {}",
             named(a),
             named(b),
-            write(force.norm(), scene.units.force())
+            quantity(force.norm(), scene.units.force())
         ),
         Failure::Friction { bodies: [a, b], force, .. } => format!(
             "{} slides along {}, and friction would have to give {} more",
             named(a),
             named(b),
-            write(force.norm(), scene.units.force())
+            quantity(force.norm(), scene.units.force())
         ),
         Failure::RobotForce { robot, force, .. } => format!(
             "robot {} would have to give {} more",
             scene.robots[robot.0].id,
-            write(force.norm(), scene.units.force())
+            quantity(force.norm(), scene.units.force())
         ),
         Failure::RobotTorque { robot, torque, .. } => format!(
             "robot {} would have to give {} more torque",
             scene.robots[robot.0].id,
-            write(torque.abs(), scene.units.torque())
+            quantity(torque.abs(), scene.units.torque())
         ),
     }
 }

@@ -8,8 +8,6 @@
 pub mod capacity;
 pub mod case;
 pub mod failure;
-#[cfg(feature = "report")]
-pub mod headline;
 pub mod margin;
 pub mod movement;
 pub mod number;
@@ -17,4 +15,6 @@ pub mod placement;
 pub mod removable;
 pub mod proof;
 pub mod sensitivity;
+#[cfg(any(feature = "report", feature = "cli"))]
+pub mod thrust;
 pub mod verdict;

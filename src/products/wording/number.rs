@@ -23,8 +23,7 @@ fn in_chosen_unit(value: f64, unit: &str) -> String {
     if value == 0.0 || !value.is_finite() {
         return with_prefix(value, unit);
     }
-    // The factor makes sure that equal forces are written with equal digits; `with_prefix` explains it.
-    let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
+    let rounded = three_digits(value);
     let sign = if value < 0.0 { "−" } else { "" };
     let size: f64 = rounded.parse().unwrap_or(value);
     if (1e-4..1e7).contains(&size) {
@@ -43,10 +42,8 @@ fn with_prefix(value: f64, unit: &str) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { format!("0 {unit}") } else { format!("unlimited {unit}") };
     }
-    // Round in decimal before choosing the prefix, so that 999.7 N becomes 1 kN and not 1000 N. Two equal forces can
-    // differ by a rounding error of the solver (relative error below 1e-9). If one is just below 4.125 and the other
-    // just above, they would be rounded differently. The factor moves both above this limit.
-    let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
+    // Round in decimal before choosing the prefix, so that 999.7 N becomes 1 kN and not 1000 N.
+    let rounded = three_digits(value);
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let sign = if value < 0.0 { "−" } else { "" };
@@ -72,6 +69,26 @@ fn with_prefix(value: f64, unit: &str) -> String {
             format!("{sign}{mantissa}×10{} {unit}", superscript(exponent))
         }
     }
+}
+
+/// Writes the size of a quantity with three significant digits: `4.13e2`. All quantities in texts, tables and figures
+/// have these digits.
+///
+/// Two equal forces can differ by a rounding error of the solver (relative error below 1e-9). If one is just below 4.125
+/// and the other just above, they would be rounded differently. The factor moves both above this limit.
+fn three_digits(value: f64) -> String {
+    format!("{:.2e}", value.abs() * (1.0 + 1e-7))
+}
+
+/// Writes a quantity in a column of a table: the digits that [`quantity`] writes, for a unit that is `10^-shift` times
+/// the unit of `value`.
+pub fn shifted(value: f64, shift: i32) -> String {
+    let rounded = three_digits(value);
+    let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
+    let exponent = exponent.parse().unwrap_or(0) + shift;
+    let size: f64 = format!("{mantissa}e{exponent}").parse().unwrap_or(0.0);
+    let sign = if value < 0.0 && size > 0.0 { "−" } else { "" };
+    format!("{sign}{size}")
 }
 
 /// Writes a whole number in superscript digits: `⁻⁹`.
@@ -197,30 +214,31 @@ pub fn three(x: f64) -> String {
     format!("{x:.*}", decimals(if rounded == 0.0 { x } else { rounded })).replace('-', "−")
 }
 
-/// Writes a positive number with three significant digits like [`three`], but rounded down. The written number may
-/// exceed `x` by at most the relative error of margins, 1e-6.
+/// Writes a positive number with at most three significant digits, rounded down: the safe side of an upper end. The
+/// written number may exceed `x` by at most the relative error of margins, 1e-6.
 pub fn three_down(x: f64) -> String {
     three_beyond(x, -1.0)
 }
 
-/// Writes a positive number with three significant digits like [`three`], but rounded up. The written number may be
-/// below `x` by at most the relative error of margins, 1e-6.
+/// Writes a positive number with at most three significant digits, rounded up: the safe side of a lower end. The written
+/// number may be below `x` by at most the relative error of margins, 1e-6.
 pub fn three_up(x: f64) -> String {
     three_beyond(x, 1.0)
 }
 
-/// Writes a number with three significant digits, rounded up if `sign` is 1 and down if it is −1. The nearest
+/// Writes a number with at most three significant digits, rounded up if `sign` is 1 and down if it is −1. The nearest
 /// rounding in the other direction is also accepted if its relative distance is at most the error of margins.
 fn three_beyond(x: f64, sign: f64) -> String {
     // The relative error of margins.
     const MARGIN_TOL: f64 = 1e-6;
     let nearest = three(x);
     let written: f64 = nearest.parse().unwrap_or(x);
-    if x <= 0.0 || (x - written) * sign <= MARGIN_TOL * x {
-        return nearest;
-    }
-    let digit = libm::exp10(libm::floor(libm::log10(x)) - 2.0);
-    three(written + sign * digit)
+    let safe = if x <= 0.0 || (x - written) * sign <= MARGIN_TOL * x {
+        nearest
+    } else {
+        three(written + sign * libm::exp10(libm::floor(libm::log10(x)) - 2.0))
+    };
+    if safe.contains('.') { safe.trim_end_matches('0').trim_end_matches('.').to_owned() } else { safe }
 }
 
 /// Chooses one SI prefix for all numbers of a column. `largest` is the largest of these numbers. Returns the unit with
@@ -254,7 +272,7 @@ pub fn duration(seconds: f64) -> String {
 /// of the other one is written as 0.
 pub fn place(p: Point, units: UnitsEntry) -> String {
     let unit = units.length();
-    let noise = 1e-12 * p.x.abs().max(p.y.abs());
+    let noise = 1e-9 * p.x.abs().max(p.y.abs());
     let [x, y] = [p.x, p.y].map(|x| digits(if x.abs() <= noise { 0.0 } else { unit.value_from_si(x) }));
     format!("({x}, {y}) {}", unit.symbol())
 }

@@ -1,10 +1,9 @@
 //! Describes in words whether a frame stands, and the reasons why not.
 
 use super::failure::{by_amount, missing_phrase, missing_sentence, shortened, unsupported_phrase};
-use super::number::{listed, quantity};
+use super::number::listed;
 use crate::mechanics::analysis::{FALLS, FrameAnalysis, STANDS, UNDECIDED, Verdict};
 use crate::mechanics::scene::Scene;
-use crate::mechanics::scene::Unit;
 
 /// Largest number of failures that a sentence names. All further failures are only counted.
 const MAX_FAILURES_IN_SENTENCE: usize = 4;
@@ -65,14 +64,10 @@ pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
 /// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. The text is
 /// empty for all other frames.
 pub fn reasons(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
-    reasons_with(scene, frame_analysis, &|value, unit| quantity(value, unit))
-}
-
-fn reasons_with(scene: &Scene, frame_analysis: &FrameAnalysis, write: &dyn Fn(f64, Unit) -> String) -> String {
     let mut parts: Vec<String> = Vec::new();
     parts.extend(unsupported_phrase(scene, frame_analysis));
     let failures = by_amount(frame_analysis).into_iter();
-    let failures: Vec<String> = failures.map(|f| missing_sentence(scene, f, write)).collect();
+    let failures: Vec<String> = failures.map(|f| missing_sentence(scene, f)).collect();
     parts.extend(shortened(failures, MAX_FAILURES_IN_SENTENCE));
     if frame_analysis.only_by_wedging == Some(true) {
         parts.push("only by wedging: its loads alone do not build up the forces that hold it".to_owned());
@@ -86,12 +81,6 @@ fn reasons_with(scene: &Scene, frame_analysis: &FrameAnalysis, write: &dyn Fn(f6
 
 /// Writes a sentence with the verdict and its reasons, for readers who do not program.
 pub fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
-    sentence_with(scene, frame_analysis, &|value, unit| quantity(value, unit))
-}
-
-/// Writes the same sentence as [`sentence`], but formats each quantity with `write`. This function gets the value in SI
-/// units, and the unit in which the scene writes it.
-pub fn sentence_with(scene: &Scene, frame_analysis: &FrameAnalysis, write: &dyn Fn(f64, Unit) -> String) -> String {
     match frame_analysis.verdict {
         Verdict::Stable if frame_analysis.only_by_wedging == Some(true) => {
             "It stands, but only by wedging: forces that hold every block at rest exist, but the loads alone do not \
@@ -104,7 +93,7 @@ pub fn sentence_with(scene: &Scene, frame_analysis: &FrameAnalysis, write: &dyn 
         Verdict::Stable => {
             format!("It {STANDS}: pressure and friction at the contacts, and the robots, can hold every block at rest.")
         }
-        Verdict::Unstable => match reasons_with(scene, frame_analysis, write) {
+        Verdict::Unstable => match reasons(scene, frame_analysis) {
             reasons if reasons.is_empty() => {
                 format!("It {FALLS}: no forces that contacts and robots can give would hold every block at rest.")
             }

@@ -64,6 +64,23 @@ fn the_table_has_verdicts_numbers_and_failures() {
     );
 }
 
+/// The table states the headline margin, but not forces of one balance among many; the range of a thrust follows with
+/// `--explain`.
+#[test]
+fn the_table_states_the_headline_margin_and_explains_which_numbers_are_of_one_balance() {
+    let bench = Bench::new();
+    let arch = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/arch13.json");
+    let table = bench.run(&format!("check {arch}")).out;
+    let head = table.lines().nth(1).expect("a head");
+    assert!(head.split_whitespace().eq(["frame", "verdict", "weight", "margin"]), "{table}");
+    assert!(table.contains("falls at ") && !table.contains("tilt of gravity:"), "{table}");
+    let explained = bench.run(&format!("check --explain {arch}")).out;
+    assert!(explained.contains("The horizontal thrust H may lie between "), "{explained}");
+    assert!(explained.contains("many sets of forces can balance a frame"), "{explained}");
+    let json: Value = serde_json::from_str(&bench.run(&format!("check --json {arch}")).out).expect("JSON");
+    assert!(json["frames"][0]["margins"].is_null(), "{json}");
+}
+
 #[test]
 fn the_json_output_has_one_object_per_scene() {
     let bench = Bench::new();

@@ -29,7 +29,7 @@ fn a_drawing_becomes_a_scene_that_check_accepts() {
     assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{}", ran.err);
     assert!(ran.err.contains("drawing.svg: 1 block, 1 part of the ground, 0 robots"), "{}", ran.err);
     assert!(ran.err.contains("a unit of the drawing is 0.001 m, because it is 8cm wide"), "{}", ran.err);
-    assert!(ran.err.contains("snapped 2 corners of post by up to 2.00e-5 m, to ground[0]"), "{}", ran.err);
+    assert!(ran.err.contains("snapped 2 corners of post by up to 20 µm, to ground[0]"), "{}", ran.err);
     let scene = fs::read_to_string(bench.path("scene.json")).expect("written");
     assert!(scene.contains(r#""kernel": 0.1"#) && scene.contains(r#""gravity": [0.0,-9.81]"#), "{scene}");
     assert_eq!(bench.run("check scene.json").code, 0);

@@ -7,14 +7,14 @@ use crate::mechanics::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepE
 
 fn assert_fits(name: &str, analysis: &Analysis) {
     for width in [40, 50, 60, 70, 79, 80, 100] {
-        let page = of(name, analysis, Detail::Short, Some(width)).fitted(width);
+        let page = of(name, analysis, &Detail { margins: true, ..Detail::default() }, Some(width)).fitted(width);
         for line in page.text().lines() {
             assert!(seen(line) <= width, "{width}: {line}");
         }
     }
     // Rows for a file or for another program are not shortened.
-    let page = of(name, analysis, Detail::Short, None);
-    assert!(page.text().contains("between"));
+    let page = of(name, analysis, &Detail { margins: true, ..Detail::default() }, None);
+    assert!(page.text().contains("margin"));
 }
 
 #[test]

@@ -1,12 +1,10 @@
-//! [`whole`] and [`of_block`]: tables of forces for a check of equilibrium by hand. One table lists the external
-//! forces on the whole structure, the other lists the forces on one block.
+//! [`support_forces`] and [`whole`]: the reactions, and a table of all external forces for a check of equilibrium by hand.
 
 use super::unit::Units;
 use super::{Grid, TableCell};
 use crate::geometry::{Point, Vector, cross};
 use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause, Scene};
-use crate::products::wording::failure::named;
 use crate::text::line;
 
 /// Largest number of reactions in separate rows. If there are more, they are summed for each part of the ground. It is
@@ -29,13 +27,13 @@ struct Force {
     force: Vector,
     /// The torque that acts in addition to the force, N·m.
     torque: f64,
-    /// The moment of force and torque about the reference point, N·m, anticlockwise positive.
+    /// The moment of force and torque about the origin, N·m, anticlockwise positive.
     moment: f64,
 }
 
 impl Force {
-    fn new(what: impl Into<String>, at: Point, force: Vector, torque: f64, about: Point) -> Force {
-        Force { what: what.into(), at: Some(at), force, torque, moment: cross(at - about, force) + torque }
+    fn new(what: impl Into<String>, at: Point, force: Vector, torque: f64) -> Force {
+        Force { what: what.into(), at: Some(at), force, torque, moment: cross(at.coords, force) + torque }
     }
 
     /// Returns one row for several forces, with the sum of the forces and the sum of their moments.
@@ -50,60 +48,40 @@ impl Force {
     }
 }
 
+/// Makes a table of the reactions: the forces of the ground and of robots on the blocks. `number` is the index of the
+/// frame.
+pub(super) fn support_forces(analysis: &Analysis, number: usize) -> Grid {
+    let (scene, found) = (analysis.scene_of(number), &analysis.frames[number]);
+    let mut forces = reactions(scene, found);
+    forces.extend(robots(scene, found));
+    table("", &forces, Units::new(scene, found), false)
+}
+
 /// Makes a table of the external forces on the supported blocks of a frame: reactions, forces of robots, missing
 /// forces, weight and loads. The last row is their sum. Moments are about the origin. `number` is the index of the
 /// frame.
 pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
-    let (scene, frame_analysis) = (analysis.scene_of(number), &analysis.frames[number]);
-    let about = Point::origin();
-    let supported: Vec<BlockId> = scene.frames[number]
-        .placed
-        .iter()
-        .copied()
-        .filter(|block| !frame_analysis.unsupported.contains(block))
-        .collect();
-    let mut forces = reactions(scene, frame_analysis, about);
-    forces.extend(robots(scene, frame_analysis, None, about));
-    forces.extend(missing(scene, frame_analysis, &supported, about));
+    let (scene, found) = (analysis.scene_of(number), &analysis.frames[number]);
+    let placed = scene.frames[number].placed.iter().copied();
+    let supported: Vec<BlockId> = placed.filter(|block| !found.unsupported.contains(block)).collect();
+    let grounds = reactions(scene, found);
+    let together = |what: &str, forces: Vec<Force>| match forces.len() {
+        0 | 1 => forces,
+        _ => vec![Force::sum(what, &forces)],
+    };
+    let mut forces = together("reactions of the ground, together", grounds);
+    forces.extend(together("robots, together", robots(scene, found)));
+    forces.extend(missing(scene, found, &supported));
     let all = scene.applied_forces();
     let applied = supported.iter().flat_map(|id| &all[id.0]);
     let (weights, mut loads): (Vec<&AppliedForce>, Vec<&AppliedForce>) =
         applied.partition(|applied| applied.cause == ForceCause::Weight);
     // List the loads in the order of the scene.
     loads.sort_by_key(|load| load.cause);
-    forces.extend(total_weight(&weights, about));
-    forces.extend(listed_loads(scene, &loads, about));
+    forces.extend(total_weight(&weights));
+    forces.extend(listed_loads(scene, &loads));
     let caption = "External forces on the supported blocks; moments about the origin";
-    table(caption, &forces, Units::new(scene, frame_analysis))
-}
-
-/// Makes a table of the forces on one block. The last row is their sum. Moments are about the centroid of the block.
-/// `number` is the index of the frame.
-pub(super) fn of_block(analysis: &Analysis, number: usize, block: BlockId) -> Grid {
-    let (scene, frame_analysis) = (analysis.scene_of(number), &analysis.frames[number]);
-    let own = &scene.blocks[block.0];
-    let about = own.centroid;
-    let all = scene.applied_forces();
-    let loads: Vec<&AppliedForce> =
-        (all[block.0].iter()).filter(|applied| applied.cause != ForceCause::Weight).collect();
-    let weight = scene.down() * own.weight;
-    let mut forces = vec![Force::new("weight", about, weight, 0.0, about)];
-    forces.extend(listed_loads(scene, &loads, about));
-    let body = BodyId::Block(block);
-    for contact in &frame_analysis.contacts {
-        let [a, b] = contact.interface.bodies;
-        let other = match body {
-            body if body == a => b,
-            body if body == b => a,
-            _ => continue,
-        };
-        let from = format!("from {}", line(&named(scene, other)));
-        forces.push(Force::new(from, contact.resultant.at, force_on(contact, body), 0.0, about));
-    }
-    forces.extend(robots(scene, frame_analysis, Some(block), about));
-    forces.extend(missing(scene, frame_analysis, &[block], about));
-    let caption = format!("Block {} cut free; moments about its centroid", line(&own.id));
-    table(&caption, &forces, Units::new(scene, frame_analysis))
+    table(caption, &forces, Units::new(scene, found), true)
 }
 
 /// Returns the force at an interface, in newtons, that acts on `body`. `body` is one of the two bodies of the
@@ -113,9 +91,8 @@ fn force_on(contact: &Contact, body: BodyId) -> Vector {
 }
 
 /// Returns the forces of the ground on the blocks, one for each joint between the ground and a block. If there are more
-/// than [`MAX_REACTIONS`] such joints, returns one force for each part of the ground. `about` is the reference point of
-/// moments.
-fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis, about: Point) -> Vec<Force> {
+/// than [`MAX_REACTIONS`] such joints, returns one force for each part of the ground.
+fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Force> {
     let mut joints: Vec<(usize, Force)> = Vec::new();
     for contact in &frame_analysis.contacts {
         let (ground, block) = match contact.interface.bodies {
@@ -124,9 +101,9 @@ fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis, about: Point) -> Vec
             }
             _ => continue,
         };
-        let what = format!("ground under {}", line(&scene.blocks[block.0].id));
         let force = force_on(contact, BodyId::Block(block));
-        joints.push((ground, Force::new(what, contact.resultant.at, force, 0.0, about)));
+        let what = support(scene, contact, block);
+        joints.push((ground, Force::new(what, contact.resultant.at, force, 0.0)));
     }
     if joints.len() <= MAX_REACTIONS {
         return joints.into_iter().map(|joint| joint.1).collect();
@@ -142,19 +119,34 @@ fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis, about: Point) -> Vec
     summed.collect()
 }
 
-/// Returns the forces that robots exert on all blocks, or only on `block` if it is given.
-fn robots(scene: &Scene, frame_analysis: &FrameAnalysis, block: Option<BlockId>, about: Point) -> Vec<Force> {
-    let holding = frame_analysis.robots.iter().filter(|r| block.is_none_or(|b| b == r.block));
+/// Names a part of the ground by its side of a block: `ground under a`, `wall left of a`.
+fn support(scene: &Scene, contact: &Contact, block: BlockId) -> String {
+    let interface = &contact.interface;
+    // The normal points away from the second body or towards it; orient it from the ground to the block.
+    let middle = scene.blocks[block.0].centroid - interface.middle();
+    let normal = interface.normal;
+    let towards = if normal.dot(&middle) < 0.0 { -normal } else { normal };
+    let side = match (towards.dot(&-scene.down()), towards.x) {
+        (up, _) if up > 0.5 => "ground under",
+        (up, _) if up < -0.5 => "ground above",
+        (_, x) if x > 0.0 => "wall left of",
+        _ => "wall right of",
+    };
+    format!("{side} {}", line(&scene.blocks[block.0].id))
+}
+
+/// Returns the forces that robots exert on the blocks.
+fn robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Force> {
     let force = |r: &crate::mechanics::analysis::RobotForce| {
         let what = format!("robot {}", line(&scene.robots[r.robot.0].id));
-        Force::new(what, r.at, r.force, r.torque, about)
+        Force::new(what, r.at, r.force, r.torque)
     };
-    holding.map(force).collect()
+    frame_analysis.robots.iter().map(force).collect()
 }
 
 /// Returns the missing forces on `blocks`. Missing forces between two of these blocks cancel and are left out. If
 /// there are more than [`MAX_REACTIONS`] forces, returns only their sum.
-fn missing(scene: &Scene, frame_analysis: &FrameAnalysis, blocks: &[BlockId], about: Point) -> Vec<Force> {
+fn missing(scene: &Scene, frame_analysis: &FrameAnalysis, blocks: &[BlockId]) -> Vec<Force> {
     let mut forces = Vec::new();
     for failure in &frame_analysis.failures {
         let on = blocks.iter().filter_map(|block| failure.on(BodyId::Block(*block)));
@@ -166,7 +158,7 @@ fn missing(scene: &Scene, frame_analysis: &FrameAnalysis, blocks: &[BlockId], ab
                 }
                 None => "missing force, as if the bodies stuck together".to_owned(),
             };
-            forces.push(Force::new(what, failure.at(), force, torque, about));
+            forces.push(Force::new(what, failure.at(), force, torque));
         }
     }
     if forces.len() > MAX_REACTIONS {
@@ -177,7 +169,7 @@ fn missing(scene: &Scene, frame_analysis: &FrameAnalysis, blocks: &[BlockId], ab
 }
 
 /// Returns one row for the weights of several blocks, at their common centre of gravity; `None` if there are none.
-fn total_weight(weights: &[&AppliedForce], about: Point) -> Option<Force> {
+fn total_weight(weights: &[&AppliedForce]) -> Option<Force> {
     let force: Vector = weights.iter().map(|w| w.force).sum();
     let total = force.norm();
     let middle: Vector = weights.iter().map(|w| w.at.coords * (w.force.norm() / total)).sum();
@@ -186,14 +178,14 @@ fn total_weight(weights: &[&AppliedForce], about: Point) -> Option<Force> {
         1 => "weight of the block".to_owned(),
         count => format!("weight of {count} blocks"),
     };
-    Some(Force::new(what, Point::from(middle), force, 0.0, about))
+    Some(Force::new(what, Point::from(middle), force, 0.0))
 }
 
 /// Returns one force for each load. If there are more than [`MAX_LOADS`] loads, returns only their sum.
-fn listed_loads(scene: &Scene, loads: &[&AppliedForce], about: Point) -> Vec<Force> {
+fn listed_loads(scene: &Scene, loads: &[&AppliedForce]) -> Vec<Force> {
     let force = |load: &&AppliedForce| {
         let what = format!("load on {}", line(&scene.blocks[load.block.0].id));
-        Force::new(what, load.at, load.force, load.torque, about)
+        Force::new(what, load.at, load.force, load.torque)
     };
     let forces: Vec<Force> = loads.iter().map(force).collect();
     if forces.len() > MAX_LOADS {
@@ -202,55 +194,51 @@ fn listed_loads(scene: &Scene, loads: &[&AppliedForce], about: Point) -> Vec<For
     forces
 }
 
-fn table(caption: &str, forces: &[Force], units: Units) -> Grid {
+/// Makes the table of forces. With `is_sum`, it has their moments and a last row with their sum.
+fn table(caption: &str, forces: &[Force], units: Units, is_sum: bool) -> Grid {
     let newtons = units.newtons(forces.iter().flat_map(|f| [f.force.x, f.force.y]));
-    let moments = units.torques(forces.iter().map(|f| f.moment));
+    // The product of arm and force, to which a moment of rounding errors is compared.
+    let arm = |f: &Force| f.at.map_or(0.0, |at| at.coords.norm() * f.force.norm());
+    let moments = units.torques(forces.iter().flat_map(|f| [f.moment, f.torque, arm(f)]));
     let places = forces.iter().filter_map(|f| f.at);
     let metres = units.lengths(places.flat_map(|p| [p.x, p.y]));
-    let mut grid = Grid::new(
-        caption,
-        &[
-            "force".to_owned(),
-            metres.head("x"),
-            metres.head("y"),
-            newtons.head("right"),
-            newtons.head("up"),
-            moments.head("moment"),
-        ],
-    );
+    let mut heads = vec![
+        if is_sum { "force" } else { "on" }.to_owned(),
+        metres.head("x"),
+        metres.head("y"),
+        newtons.head("right"),
+        newtons.head("up"),
+    ];
+    heads.extend(is_sum.then(|| moments.head("moment")));
+    let mut grid = Grid::new(caption, &heads);
     let place = |value: Option<f64>| value.map_or("–".to_owned(), |v| metres.write(v));
     for force in forces {
         let mut what = force.what.clone();
         // Leave out torques that are only rounding errors of the solver.
         if force.torque.abs() > TORQUE_TOL * (1.0 + force.force.norm()) {
-            let stated = moments.with_unit(force.torque);
-            what.push_str(&format!(", and a torque of {stated}"));
+            what.push_str(&format!(", and a torque of {}", moments.with_unit(force.torque)));
         }
-        let cells = [
-            what,
-            place(force.at.map(|p| p.x)),
-            place(force.at.map(|p| p.y)),
-            newtons.write(force.force.x),
-            newtons.write(force.force.y),
-            moments.write(force.moment),
-        ];
+        let [x, y] = [force.at.map(|p| p.x), force.at.map(|p| p.y)].map(place);
+        let mut cells = vec![what, x, y, newtons.write(force.force.x), newtons.write(force.force.y)];
+        cells.extend(is_sum.then(|| moments.write(force.moment)));
         grid.add("", cells);
     }
-    let sum = Force::sum("sum", forces);
-    let words = [newtons.write(sum.force.x), newtons.write(sum.force.y), moments.write(sum.moment)];
-    let words = ["sum", "", ""].map(str::to_owned).into_iter().chain(words);
-    grid.add("", words.map(|w| TableCell::strong_if(true, w)));
-    grid.has_sum = true;
+    if is_sum {
+        let sum = Force::sum("sum", forces);
+        let words = [newtons.write(sum.force.x), newtons.write(sum.force.y), moments.write(sum.moment)];
+        let words = ["sum", "", ""].map(str::to_owned).into_iter().chain(words);
+        grid.add("", words.map(|w| TableCell::strong_if(true, w)));
+        grid.has_sum = true;
+    }
     grid
 }
 
-/// Explains what the sums in the two balance tables mean, and how moments are computed.
+/// Explains what the sums in the balance table mean, and how moments are computed.
 pub(super) fn check_words(frame_analysis: &FrameAnalysis) -> String {
-    let formula = "Moment = x·F_up − y·F_right + torque, anticlockwise positive; x and y from the point of reference.";
     let words = match frame_analysis.verdict {
-        Verdict::Stable => "The sums are zero in the printed digits: weights, loads and reactions balance.",
+        Verdict::Stable => "The sums are zero: weights, loads and reactions balance.",
         Verdict::Unstable if !frame_analysis.unsupported.is_empty() && frame_analysis.failures.is_empty() => {
-            "The table of the whole structure leaves out the blocks that nothing carries. The other blocks are in equilibrium."
+            "The table leaves out the blocks that nothing carries. The other blocks are in equilibrium."
         }
         Verdict::Unstable if frame_analysis.failures.is_empty() => {
             "The structure falls, and its forces were not computed: the sums are the imbalance."
@@ -260,5 +248,5 @@ pub(super) fn check_words(frame_analysis: &FrameAnalysis) -> String {
         }
         Verdict::Undecided => "No balance is proved: the sums are the remaining imbalance of the best forces found.",
     };
-    format!("{words} {formula}")
+    format!("{words} Moment = x·F_up − y·F_right + torque, anticlockwise positive.")
 }

@@ -24,6 +24,8 @@ pub struct MarginBar {
     pub name: String,
     /// The values at which the structure stands, and the current value, in words.
     pub words: String,
+    /// The two ends of the interval in words, such as `0.3` or `no limit`, and the current value.
+    pub ends_and_present: [String; 3],
     /// The lowest and the highest value on the scale.
     pub scale: (f64, f64),
     /// The lowest and the highest value at which the structure is known to stand. An end of the scale replaces an end
@@ -47,11 +49,9 @@ pub fn margin_bars(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<MarginB
     stated(scene, frame_analysis).iter().map(MarginBar::new).collect()
 }
 
-/// A legend for readers: the meaning of the ends of a bar and of the mark at the current value.
-pub(super) const SHAPES_LEGEND: &str = "A bar covers the values at which the structure stands. The structure falls \
-                                 beyond a stroke (dashed: not confirmed), and still stands beyond an arrow. The \
-                                 current value is a disc inside the bar, a cross outside it, or a ring if its \
-                                 position is unknown.";
+/// A legend for readers: the meaning of a bar and of the mark at the current value.
+pub(super) const SHAPES_LEGEND: &str =
+    "Bars: where it stands; disc, cross or ring: the value now, inside, outside or unknown.";
 
 /// The upper end of the scale, as a multiple of the largest absolute value that is drawn.
 const SCALE_END_RATIO: f64 = 1.25;
@@ -77,6 +77,7 @@ impl MarginBar {
         MarginBar {
             name: margin.name.clone(),
             words: margin.sentence(),
+            ends_and_present: margin.ends_and_present(),
             scale,
             safe,
             ends,
@@ -98,15 +99,6 @@ impl MarginBar {
     /// True if the current value is inside the interval of values at which the structure stands.
     pub(crate) fn is_inside(&self) -> bool {
         self.position == Position::Inside
-    }
-
-    /// Returns the name of the parameter and the margin in words. The name of the load factor is left out, because the
-    /// words mention the loads.
-    pub fn short(&self) -> String {
-        if self.is_load_factor {
-            return self.words.clone();
-        }
-        format!("{}: {}", self.name, self.words)
     }
 }
 

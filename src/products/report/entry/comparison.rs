@@ -15,7 +15,7 @@ mod difference;
 use difference::{Settings, Shapes};
 
 use super::hover::onto_scene;
-use super::row::{file_name, headline_words};
+use super::row::file_name;
 use super::{Entry, Figure, File, Grid, ReportOptions, Row, Section, SheetPart, bullet, sheet};
 use crate::geometry::Point;
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict};
@@ -24,6 +24,7 @@ use crate::mechanics::scene::format::UnitsEntry;
 use crate::pictures::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
 use crate::products::figure::{self, ForceChange, Kind, count_in_words, noise, shared_forces};
 use crate::products::wording::failure::pair;
+use crate::products::wording::margin::headline;
 use crate::products::wording::number::{counted, digits, letter, listed, percent, tenths};
 use crate::products::wording::verdict::{self, plain};
 use crate::text::line;
@@ -136,7 +137,7 @@ fn table(pairs: &[Pair<'_>]) -> Grid {
     for pair in pairs {
         let title = pair.sides[1].analysis.scene.frames[pair.number].title.as_str();
         let verdict = |side: usize| {
-            let words = headline_words(&pair.sides[side].analysis.scene, pair.number, pair.frames[side]);
+            let words = headline(&pair.sides[side].analysis.scene, pair.number, pair.frames[side]);
             let verdict = plain(pair.frames[side].verdict);
             if words.is_empty() { verdict.to_owned() } else { words }
         };

@@ -3,8 +3,9 @@
 use super::Grid;
 use super::unit::Units;
 use crate::geometry::Vector;
+use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{BlockId, Limits, Scene};
-use crate::products::wording::number::{amount, counted, digits, place, tenths};
+use crate::products::wording::number::{amount, counted, digits, place, quantity, tenths};
 use crate::text::line;
 
 /// Largest number of loads, robots or pairs of materials in a table.
@@ -59,7 +60,10 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
     for (material, blocks) in &groups {
         let name = match material {
             Some(material) => line(&scene.materials[*material].name),
-            None => "unnamed".to_owned(),
+            None => known_stone(scene, blocks)
+                .map_or(if groups.len() == 1 { "all blocks" } else { "other blocks" }.to_owned(), |stone| {
+                    format!("as {stone}")
+                }),
         };
         let densities = blocks.iter().filter_map(|id| density(scene, *id));
         let frictions = blocks.iter().map(|id| scene.blocks[id.0].body.friction);
@@ -73,6 +77,22 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
         grid.add("", cells);
     }
     grid
+}
+
+/// Returns the stone that the option `--material` of an import knows with the density and the friction of these blocks.
+#[cfg(feature = "import")]
+fn known_stone(scene: &Scene, blocks: &[BlockId]) -> Option<&'static str> {
+    let stones = crate::sources::import::STONES.iter();
+    let has = |id: &BlockId, size: f64, friction: f64| {
+        density(scene, *id) == Some(size) && scene.blocks[id.0].body.friction == friction
+    };
+    let mut fitting = stones.filter(|stone| blocks.iter().all(|id| has(id, stone.density, stone.friction)));
+    fitting.next().map(|stone| stone.name)
+}
+
+#[cfg(not(feature = "import"))]
+fn known_stone(_scene: &Scene, _blocks: &[BlockId]) -> Option<&'static str> {
+    None
 }
 
 /// Returns the density of a block in kg/m³, computed from its weight and outline. Returns `None` if the scene has no
@@ -150,7 +170,7 @@ fn direction(force: Vector) -> String {
 
 /// Makes a table of the robots that hold blocks in a frame, with the limits of their forces and torques. Robots after
 /// the first [`MAX_ROWS`] are only counted.
-pub(super) fn robots(scene: &Scene, number: usize, units: Units) -> Grid {
+pub(super) fn robots(scene: &Scene, number: usize) -> Grid {
     let holds = &scene.frames[number].holds;
     let mut grid = Grid::new("", &["robot", "holds", "at", "limits: horizontal, vertical, torque"]);
     for hold in holds.iter().take(MAX_ROWS) {
@@ -159,7 +179,7 @@ pub(super) fn robots(scene: &Scene, number: usize, units: Units) -> Grid {
             line(&robot.id),
             line(&scene.blocks[hold.block.0].id),
             place(hold.at, scene.units),
-            limits(robot.limits, units),
+            limits(robot.limits, scene.units),
         ];
         grid.add("", cells);
     }
@@ -170,19 +190,19 @@ pub(super) fn robots(scene: &Scene, number: usize, units: Units) -> Grid {
     grid
 }
 
-fn limits(limits: Limits, units: Units) -> String {
+fn limits(limits: Limits, units: UnitsEntry) -> String {
     let limit = |value: f64, words: String| if value.is_finite() { words } else { "none".to_owned() };
     let parts = [
-        limit(limits.fx, units.force(limits.fx)),
-        limit(limits.fy, units.force(limits.fy)),
-        limit(limits.torque, units.torque(limits.torque)),
+        limit(limits.fx, quantity(limits.fx, units.force())),
+        limit(limits.fy, quantity(limits.fy, units.force())),
+        limit(limits.torque, quantity(limits.torque, units.torque())),
     ];
     parts.join(", ")
 }
 
-/// Makes a table of the other inputs: gravity, thickness, joints, ground, friction of pairs of materials, kernel,
-/// corner contacts, tolerance and units.
-pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
+/// Makes a table of the other inputs: gravity, thickness, ground, friction of pairs of materials, kernel,
+/// corner contacts and tolerance.
+pub(super) fn facts(scene: &Scene, number: usize) -> Grid {
     let mut grid = Grid::new("", &["input", "value"]);
     let mut add = |what: &str, value: String| grid.add("", [what.to_owned(), value]);
     let gravity = match scene.gravity.norm() {
@@ -195,7 +215,6 @@ pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
         add("loads", "none but the weights".to_owned());
     }
     add("thickness", amount(scene.thickness, scene.units.length()));
-    add("joints", "dry: no tension, no cohesion; rigid blocks".to_owned());
     let frictions = scene.ground.iter().map(|g| g.body.friction);
     let friction = ValueRange::words(frictions.fold(None, ValueRange::add));
     let ground = match scene.ground.len() {
@@ -208,7 +227,7 @@ pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
         add(&format!("μ of {a} on {b}"), digits(*friction));
     }
     let kernel = match scene.kernel {
-        0.0 => "0: forces may act up to the ends of joints".to_owned(),
+        0.0 => "0".to_owned(),
         kernel => format!("{}: forces stay in the middle {} of each joint", digits(kernel), tenths(1.0 - kernel)),
     };
     add("safety kernel", kernel);
@@ -219,7 +238,5 @@ pub(super) fn facts(scene: &Scene, number: usize, units: Units) -> Grid {
         let moved = scene.tolerance_words().unwrap_or_default();
         add("tolerance", line(&moved));
     }
-    let [length, force, torque] = units.symbols();
-    add("units", format!("{length}, {force}, {torque}, degrees"));
     grid
 }

@@ -1,18 +1,16 @@
-//! [`Ranking`]: the joints of a frame that carry force, sorted by how near they are to opening or sliding. [`robots`]
-//! makes the table of the robots, with their forces and the largest fraction of a limit that each of them uses.
+//! [`Ranking`]: the joints of a frame that carry force in the listed balance, sorted by how near they are to opening or
+//! sliding. [`robots`] makes the table of the robots, with their forces and the largest fraction of a limit that each of them uses.
 
 use super::unit::Units;
 use super::{Grid, HoverTarget, TableCell, hover};
-use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis, Verdict};
-use crate::mechanics::scene::Unit;
-use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::geometry::Point;
+use crate::mechanics::analysis::{Contact, FrameAnalysis};
+use crate::mechanics::scene::Scene;
 use crate::mechanics::statics::interface::ContactKind;
 use crate::products::wording::failure;
 use crate::products::wording::number::percent;
 use crate::text::line;
 
-/// Largest number of joints in the table of a report that is not full.
-const MAX_JOINTS: usize = 12;
 /// Forces up to this fraction of the largest force at a joint count as rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
 /// Table cells with at least this utilisation are emphasised.
@@ -61,53 +59,17 @@ impl<'a> Ranking<'a> {
         Ranking { scene, frame_analysis, used, units: Units::new(scene, frame_analysis) }
     }
 
-    /// Returns the governing block, for which the report lists all forces. It is a block at the largest failure or, if
-    /// there are no failures, at the joint with the highest utilisation. If two blocks meet there, it is the heavier
-    /// block. Returns `None` if there is no failure and no joint carries force.
-    pub fn block(&self) -> Option<BlockId> {
-        let bodies = match failure::by_amount(self.frame_analysis).first() {
-            Some(Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. }) => *bodies,
-            Some(Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. }) => {
-                return Some(*block);
-            }
-            None => self.frame_analysis.contacts[self.used.first()?.contact].interface.bodies,
-        };
-        let blocks = bodies.iter().filter_map(|body| match body {
-            BodyId::Block(block) => Some(*block),
-            BodyId::Ground(_) => None,
-        });
-        blocks.max_by(|a, b| {
-            let weight = |id: &BlockId| self.scene.blocks[id.0].weight;
-            weight(a).total_cmp(&weight(b)).then(b.0.cmp(&a.0))
-        })
-    }
-
-    /// Describes the joint with the highest utilisation: `v13 / v12: opening 100 %`. Returns `None` if no joint
-    /// carries force.
-    pub fn governing(&self) -> Option<String> {
-        let first = self.used.first()?;
-        let contact = &self.frame_analysis.contacts[first.contact];
-        let why = match first.off_middle {
-            Some((_, share)) if share >= contact.friction_used => {
-                format!("opening {}", percent(share))
-            }
-            _ => format!("sliding {}", percent(contact.friction_used)),
-        };
-        Some(format!("{}: {why}", name(self.scene, contact)))
-    }
-
-    /// Makes the table of joints that carry force, with the highest utilisation first. If `all` is false, the table has
-    /// only the first [`MAX_JOINTS`] joints.
-    pub fn table(&self, all: bool) -> Grid {
-        let shown: &[UsedJoint] = if all { &self.used } else { &self.used[..self.used.len().min(MAX_JOINTS)] };
-        let contacts = || shown.iter().map(|u| &self.frame_analysis.contacts[u.contact]);
+    /// Makes the table of all joints that carry force in the listed balance, with the highest utilisation first.
+    pub fn table(&self) -> Grid {
+        let contacts = || self.used.iter().map(|u| &self.frame_analysis.contacts[u.contact]);
         let newtons = self.units.newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
         let positions = self.units.lengths(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
         // Choose the decimals of the offsets from half the lengths of the joints, which are the largest possible
         // offsets.
         let offs = self.units.lengths(contacts().map(|c| 0.5 * c.interface.length()));
         let mut grid = Grid::new(
-            if all { "All joints that carry force" } else { "" },
+            "All joints that carry force in this balance, one of many possible: opening = 2 e / length of the joint, \
+             sliding = |T| / (μ N)",
             &[
                 "joint".to_owned(),
                 positions.head("x"),
@@ -119,7 +81,7 @@ impl<'a> Ranking<'a> {
                 "#sliding".to_owned(),
             ],
         );
-        for used in shown {
+        for used in &self.used {
             let contact = &self.frame_analysis.contacts[used.contact];
             let at = contact.resultant.at;
             let (off, opening) = match used.off_middle {
@@ -140,27 +102,6 @@ impl<'a> Ranking<'a> {
             grid.add(format!("i{}", used.contact), cells);
         }
         grid
-    }
-
-    /// Explains the columns of the table of joints, and states how many joints the short table lists.
-    pub fn words(&self) -> String {
-        let count = self.frame_analysis.contacts.len();
-        let shown = self.used.len().min(MAX_JOINTS);
-        let kernel = match self.scene.kernel {
-            0.0 => "",
-            _ => " × (1 − kernel)",
-        };
-        let added = match self.frame_analysis.verdict {
-            Verdict::Stable => "",
-            Verdict::Unstable if self.frame_analysis.failures.is_empty() => "",
-            Verdict::Unstable => " These forces are in equilibrium only together with the missing forces.",
-            Verdict::Undecided => " These forces are not proved.",
-        };
-        format!(
-            "{shown} of {count} joints, nearest to opening or sliding first. x, y: where the resultant acts; e: its distance from the middle. \
-             Opening = 2 e / \
-             (length of the joint{kernel}); sliding = |T| / (μ N). At 100 % the joint opens or slides.{added}"
-        )
     }
 
     /// Returns the parts of a figure that have a tooltip: joints that carry force, robots and failures. The list is
@@ -189,17 +130,11 @@ impl<'a> Ranking<'a> {
             hover::target(format!("r{number}"), &words, robot.at)
         });
         let failures = self.frame_analysis.failures.iter().enumerate().map(|(number, failed)| {
-            let words = format!("Failure: {}", missing(self.scene, failed, self.units));
+            let words = format!("Failure: {}", failure::missing_sentence(self.scene, failed));
             hover::target(format!("f{number}"), &words, failed.at())
         });
         joints.chain(robots).chain(failures).collect()
     }
-}
-
-/// Describes a failure in a sentence. Forces and torques are written in the units `units`.
-pub(super) fn missing(scene: &Scene, failed: &Failure, units: Units) -> String {
-    let write = |value: f64, unit: Unit| units.words(value, unit);
-    failure::missing_sentence(scene, failed, &write)
 }
 
 /// Returns the magnitude of the force at a contact, N.
@@ -208,7 +143,7 @@ fn size(contact: &Contact) -> f64 {
 }
 
 /// Returns the normal force at a contact, N.
-fn normal(contact: &Contact) -> f64 {
+pub(super) fn normal(contact: &Contact) -> f64 {
     contact.normal_forces[0] + contact.normal_forces[1]
 }
 
@@ -216,6 +151,15 @@ fn normal(contact: &Contact) -> f64 {
 pub(super) fn name(scene: &Scene, contact: &Contact) -> String {
     let [a, b] = contact.interface.bodies.map(|body| scene.name(body));
     line(&format!("{a} / {b}"))
+}
+
+/// Returns the distance of the resultant of a joint from one of its ends, the hinge, as a share of its length. `None` for
+/// a corner or a joint of length 0.
+pub(super) fn off_hinge(contact: &Contact, hinge: Point) -> Option<f64> {
+    let interface = &contact.interface;
+    let is_long = interface.kind != ContactKind::Corner && interface.length() > 0.0;
+    let off = (contact.resultant.at - hinge).dot(&interface.tangent()).abs();
+    is_long.then(|| (off / interface.length()).min(1.0))
 }
 
 /// Returns the distance of a resultant from the middle of its joint, m, and the ratio of this distance to the largest

@@ -6,6 +6,7 @@
 
 mod balance;
 mod bullet;
+mod collapse;
 mod comparison;
 mod inputs;
 mod joints;
@@ -13,7 +14,6 @@ mod part;
 mod row;
 mod sheet;
 mod steps;
-mod verdict_text;
 mod hover;
 mod unit;
 

@@ -34,11 +34,9 @@ pub enum SheetPart {
 pub struct Badge {
     /// The verdict.
     pub verdict: Verdict,
-    /// The most important margin as a sentence; empty if no margin was computed.
+    /// The most important margins in words, as below a figure; empty if no margin was computed.
     pub headline: String,
-    /// The same margin as a bar; `None` if no margin was computed.
-    pub bar: Option<MarginBar>,
-    /// The verdict with its reasons.
+    /// The verdict with its reasons; empty if the headline says all.
     pub sentence: String,
 }
 

@@ -2,14 +2,13 @@
 
 use super::bullet;
 use crate::geometry::Bounds;
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, STANDS, Verdict};
+use crate::mechanics::analysis::{Analysis, STANDS, Verdict};
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::{Camera, Outline, PagePoint, Segment};
 use crate::products::wording::failure;
-use crate::products::wording::headline::headline;
-use crate::products::wording::margin::{Parameter, StatedMargin, stated};
-use crate::products::wording::number::{percent, quantity};
+use crate::products::wording::margin::headline;
+use crate::products::wording::number::quantity;
 use crate::products::wording::verdict::plain;
 use crate::text;
 use crate::text::line;
@@ -37,15 +36,13 @@ pub struct Row {
     pub stand: (usize, usize),
     /// The number of different blocks that the steps place.
     pub blocks: usize,
-    /// The most important margin of the governing step as a sentence; empty if no margin was computed.
+    /// The most important margin of the governing step in words; empty if no margin was computed.
     pub headline: String,
     /// The relative distance of the current value from the nearest end of this margin, 0 … 1. It is −1 for a falling
     /// scene whose most important margin is not the load factor, and 2 if no margin was computed.
     pub reserve: f64,
-    /// The largest utilisation of friction at an interface (0 … 1), among the steps that stand. `None` if no step
-    /// stands, because the forces of a falling step include the missing forces.
-    pub friction: Option<f64>,
-    /// The largest force at an interface or of a robot in N, among the steps that stand; `None` if no step stands.
+    /// The largest force at an interface or of a robot in N, in the listed balances of the steps that stand. `None` if no
+    /// step stands, because the forces of a falling step include the missing forces.
     pub largest: Option<f64>,
     /// The units in which the forces are written.
     pub units: UnitsEntry,
@@ -96,15 +93,11 @@ impl Row {
             before: None,
             stand: (standing().count(), frames.len()),
             blocks: placed.len(),
-            headline: headline_words(scene, number, &frames[number]),
+            headline: line(&headline(scene, number, &frames[number])),
             reserve: bar.map_or(2.0, |bar| match analysis.verdict() {
                 Verdict::Unstable if !bar.is_load_factor => -1.0,
                 _ => bar.reserve,
             }),
-            friction: standing()
-                .map(|f| f.contacts.iter().map(|c| c.friction_used))
-                .map(|shares| shares.fold(0.0, f64::max))
-                .reduce(f64::max),
             units: scene.units,
             largest: standing()
                 .map(|f| {
@@ -134,11 +127,6 @@ impl Row {
             "" => "–".to_owned(),
             words => words.to_owned(),
         }
-    }
-
-    /// Returns the largest utilisation of friction as text; `none stands` if no frame stands.
-    pub(crate) fn friction_words(&self) -> String {
-        self.friction.map_or_else(|| format!("none {STANDS}"), percent)
     }
 
     /// Returns the largest force as text with its unit; `none stands` if no frame stands.
@@ -215,22 +203,4 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
         let steps = (0..analysis.frames.len()).rev();
         steps.min_by(|a, b| reserve(a).total_cmp(&reserve(b))).unwrap_or(0)
     })
-}
-
-/// Returns the most important margin of a frame as a sentence without a full stop; empty if no margin was computed.
-pub(super) fn headline_words(scene: &Scene, number: usize, frame_analysis: &FrameAnalysis) -> String {
-    let placed = &scene.frames[number].placed;
-    let loads = scene.loads_on(placed).len();
-    let margins = stated(scene, frame_analysis);
-    let first = margins.first();
-    let Some(first) = first else {
-        return String::new();
-    };
-    let mut words = headline(first, frame_analysis.verdict, loads);
-    let load = margins.iter().skip(1).find(|m| m.parameter == Parameter::LoadFactor);
-    if load.is_some_and(StatedMargin::has_no_limit) {
-        let load = if loads == 1 { "load" } else { "loads" };
-        words.push_str(&format!(" and carries any multiple of its {load}"));
-    }
-    line(&words)
 }

@@ -1,20 +1,26 @@
-//! [`sheet`]: the main section of a report, about one frame. It fills about two pages: first verdict, pictures and
-//! inputs, then balance, joints, margins and assumptions.
+//! [`sheet`]: the two main sections of a report, about one frame. First what the structure is, with its inputs, reactions
+//! and margins, then its forces, the governing collapse and the balance of forces as a check.
 
+use super::collapse::{Collapse, other_way};
 use super::joints::{Ranking, robots};
-use super::row::headline_words;
 use super::unit::Units;
-use super::{Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs, verdict_text};
-use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, MovementOutcome, Verdict};
+use super::{Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
+use crate::geometry::Bounds;
+use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, MovementOutcome, Toward, Verdict};
 use crate::mechanics::scene::Scene;
-use crate::mechanics::scene::Unit;
-use crate::pictures::drawing::Drawing;
+use crate::pictures::drawing::{Drawing, Theme};
 use crate::products::figure::{self, Kind, Options};
+use crate::products::wording::margin::headline;
 use crate::products::wording::number::letter;
+use crate::products::wording::thrust::thrust_range;
 use crate::products::wording::verdict::plain;
-use crate::products::wording::{movement, placement, proof, removable, verdict};
+use crate::products::wording::{case, movement, placement, proof, removable, verdict};
 use crate::text::line;
 
+/// Width of a figure of the whole page, pixels, the height of its picture, and that of the outline on the first page.
+const WIDE: f64 = 680.0;
+const WIDE_HEIGHT: f64 = 170.0;
+const OUTLINE_HEIGHT: f64 = 230.0;
 /// Width of a figure, in pixels. It is half a page, so that labels are legible in print and on a phone.
 const FIGURE_WIDTH: f64 = 440.0;
 /// Height of the picture in a figure, in pixels.
@@ -48,44 +54,102 @@ pub(super) fn empty(scene: &Scene, number: usize, verdict: Verdict) -> Section {
     }
 }
 
-/// Makes the main section of a report, about the frame with index `number`. `steps` is the table of all steps if the
-/// scene has several, otherwise `None`.
+/// Makes the two main sections of a report, about the frame with index `number`. The first is what the structure is and
+/// how far it is from falling, the second how forces run, how it falls, and the check. `steps` is the table of all steps
+/// if the scene has several, otherwise `None`.
 pub(super) fn sheet(
     analysis: &Analysis,
     number: usize,
     steps: Option<Grid>,
     report_options: &ReportOptions,
-) -> Section {
-    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
-    let ranking = Ranking::new(scene, frame_analysis);
-    let mut section = empty(scene, number, frame_analysis.verdict);
-    let parts = &mut section.parts;
-    parts.push(SheetPart::Badge(Box::new(badge(scene, number, frame_analysis))));
-    parts.push(SheetPart::Figures(figures(analysis, number, report_options, &ranking)));
-    parts.extend(failure_description(analysis, number));
-    parts.push(given(scene, number, Units::new(scene, frame_analysis)));
+) -> [Section; 2] {
+    let (scene, found) = (&**analysis.scene_of(number), &analysis.frames[number]);
+    let mut first = empty(scene, number, found.verdict);
+    let mut second = Section { letter: String::new(), title: String::new(), begins_page: true, ..first.clone() };
+    let collapse = Collapse::new(analysis, number);
+    first.parts.push(SheetPart::Badge(Box::new(badge(scene, number, found))));
+    let outline = drawn(analysis, number, report_options, &|options| {
+        options.dimensions = true;
+        (options.width, options.height) = (Some(WIDE), Some(OUTLINE_HEIGHT));
+        Kind::Structure
+    });
+    let is_loaded = scene.loads.iter().any(|load| scene.frames[number].placed.contains(&load.block));
+    let outline = outline.map(|(drawing, dark)| Figure {
+        caption: if is_loaded {
+            "The structure, its loads and its supports."
+        } else {
+            "The structure and its supports."
+        }
+        .to_owned(),
+        drawing,
+        dark,
+        touches: Vec::new(),
+        subject: Some((Kind::Structure, number)),
+    });
+    first.parts.push(SheetPart::Figures(outline.into_iter().collect()));
+    first.parts.push(given(scene, number, Units::new(scene, found)));
+    let mut titled = |heading: &str, grid: Grid, note: Option<String>| {
+        if !grid.lines.is_empty() {
+            first.parts.push(SheetPart::Heading(heading.to_owned()));
+            first.parts.push(SheetPart::Table(grid));
+            first.parts.extend(note.map(SheetPart::Note));
+        }
+    };
+    titled("Reactions", balance::support_forces(analysis, number), other_balances(analysis, number));
+    titled("Margins", margins(scene, found), Some(bullet::SHAPES_LEGEND.to_owned()));
+    first.parts.extend(case::lines(found).into_iter().map(SheetPart::Note));
+    let notes = found.margins.iter().flat_map(|margins| &margins.intervals.notes);
+    first.parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
+
+    let parts = &mut second.parts;
+    let figures = figures(analysis, number, report_options, collapse.as_ref());
+    // Wide structures are drawn below each other, others next to each other.
+    let across = if is_wide(scene, number) { 1 } else { 2 };
+    parts.extend(figures.chunks(across).map(|row| SheetPart::Figures(row.to_vec())));
+    if let Some(collapse) = &collapse {
+        let falls = found.verdict == Verdict::Unstable;
+        let heading = if falls { "Where it fails" } else { "Where it would fail first" };
+        let (table, note) = collapse.table(analysis, number);
+        parts.push(SheetPart::Heading(heading.to_owned()));
+        parts.push(SheetPart::Text(collapse.words(analysis, number)));
+        parts.push(SheetPart::Table(table));
+        parts.push(SheetPart::Note(note));
+    }
+    parts.push(SheetPart::Table(robots(scene, found)));
+    parts.extend(movements(scene, found));
+    parts.push(SheetPart::Heading("Balance of forces".to_owned()));
+    parts.push(SheetPart::Table(balance::whole(analysis, number)));
+    parts.push(SheetPart::Note(balance::check_words(found)));
+    let mut last = vec![assumptions(scene, found), proof::sentence(found.proof)];
+    last.extend(remarks(scene, found));
+    parts.push(SheetPart::Heading("Assumptions and proof".to_owned()));
+    parts.push(SheetPart::Note(last.join(" ")));
     if let Some(steps) = steps {
         parts.push(SheetPart::Heading("Steps".to_owned()));
         parts.push(SheetPart::Table(steps));
     }
-    parts.push(SheetPart::Heading("Reactions and balance".to_owned()));
-    parts.push(SheetPart::Table(balance::whole(analysis, number)));
-    parts.push(SheetPart::Heading("Governing joints".to_owned()));
-    parts.push(SheetPart::Table(ranking.table(false)));
-    parts.push(SheetPart::Note(ranking.words()));
-    parts.push(SheetPart::Table(robots(scene, frame_analysis)));
-    if let Some(block) = ranking.block() {
-        parts.push(SheetPart::Heading("Governing block".to_owned()));
-        parts.push(SheetPart::Table(balance::of_block(analysis, number, block)));
+    parts.retain(|part| !matches!(part, SheetPart::Note(words) if words.is_empty()));
+    [first, second]
+}
+
+/// States that the listed forces are one balance among many, with the range of the horizontal thrust if it takes little
+/// time to compute, or what the forces of a frame that does not stand are worth.
+fn other_balances(analysis: &Analysis, number: usize) -> Option<String> {
+    let found = &analysis.frames[number];
+    match found.verdict {
+        Verdict::Stable => {}
+        Verdict::Unstable if found.failures.is_empty() => return None,
+        Verdict::Unstable => return Some("These forces hold only together with the missing forces.".to_owned()),
+        Verdict::Undecided => return Some("These forces are not proved.".to_owned()),
     }
-    parts.push(SheetPart::Note(balance::check_words(frame_analysis)));
-    parts.extend(margins(scene, frame_analysis));
-    parts.extend(movements(scene, frame_analysis));
-    parts.push(SheetPart::Heading("Assumptions and proof".to_owned()));
-    parts.push(SheetPart::Text(assumptions(scene, frame_analysis)));
-    parts.push(SheetPart::Text(proof::sentence(frame_analysis.proof)));
-    parts.extend(remarks(scene, frame_analysis).into_iter().map(SheetPart::Note));
-    section
+    let range = thrust_range(analysis, number).map_or(String::new(), |range| format!(" {range}."));
+    Some(format!("One possible balance, that of least forces; others may exist.{range}"))
+}
+
+/// True if the blocks of a frame are more than twice as wide as high.
+fn is_wide(scene: &Scene, number: usize) -> bool {
+    let bounds = scene.frames[number].placed.iter().map(|id| scene.blocks[id.0].body.polygon.bounds());
+    bounds.reduce(Bounds::union).is_some_and(|bounds| bounds.width() > 2.0 * bounds.height())
 }
 
 /// Describes steps that do not stand, in two columns. `numbers` has the indices of the steps. Each step has its first
@@ -95,7 +159,8 @@ pub(super) fn others(analysis: &Analysis, numbers: &[usize], report_options: &Re
     let column = |number: &usize| {
         let frame_analysis = &analysis.frames[*number];
         let own = empty(scene, *number, frame_analysis.verdict);
-        let mut figures = figures(analysis, *number, report_options, &Ranking::new(scene, frame_analysis));
+        let collapse = Collapse::new(analysis, *number);
+        let mut figures = figures(analysis, *number, report_options, collapse.as_ref());
         figures.truncate(1);
         figures.iter_mut().for_each(|figure| figure.touches.clear());
         vec![
@@ -108,112 +173,86 @@ pub(super) fn others(analysis: &Analysis, numbers: &[usize], report_options: &Re
     columns.chunks(2).map(|pair| SheetPart::Columns(pair.to_vec())).collect()
 }
 
-/// Returns a sentence with the verdict and its reasons. Forces and torques have the unit and
-/// SI prefix that the report uses for this frame.
+/// Returns a sentence with the verdict and its reasons.
 fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
-    let units = Units::new(scene, frame_analysis);
-    let write = |value: f64, unit: Unit| units.words(value, unit);
-    line(&verdict::sentence_with(scene, frame_analysis, &write))
+    line(&verdict::sentence(scene, frame_analysis))
 }
 
-fn badge(scene: &Scene, number: usize, frame_analysis: &FrameAnalysis) -> Badge {
+/// Makes the verdict with the headline margin. The sentence with the reasons is left out if the frame stands without any.
+fn badge(scene: &Scene, number: usize, found: &FrameAnalysis) -> Badge {
+    let is_plain = found.verdict == Verdict::Stable && found.only_by_wedging != Some(true);
     Badge {
-        verdict: frame_analysis.verdict,
-        headline: headline_words(scene, number, frame_analysis),
-        bar: bullet::margin_bars(scene, frame_analysis).into_iter().next(),
-        sentence: sentence(scene, frame_analysis),
+        verdict: found.verdict,
+        headline: line(&headline(scene, number, found)),
+        sentence: if is_plain { String::new() } else { sentence(scene, found) },
     }
 }
 
-/// Draws the figures of a frame. For a falling frame, they show the collapse and the forces. For a standing frame, they
-/// show the force flow, and how the frame would fall beyond its margin. For an undecided frame, they show the forces.
-/// A collapse or fall that is not known has no figure. Without interfaces, forces replace the force flow.
-fn figures(analysis: &Analysis, number: usize, report_options: &ReportOptions, ranking: &Ranking<'_>) -> Vec<Figure> {
-    let frame_analysis = &analysis.frames[number];
-    let options = options(report_options);
-    let dark = report_options.dark.as_ref().map(|theme| Options { theme: theme.clone(), ..options.clone() });
-    let drawn = |kind: Kind, change: &dyn Fn(&mut Options)| -> Option<(Drawing, Option<Drawing>)> {
-        let one = |options: &Options| {
-            let mut options = options.clone();
-            change(&mut options);
-            let panels = figure::panels_of(analysis, kind, &options, &[number]);
-            panels.into_iter().next()
-        };
-        Some((one(&options)?, dark.as_ref().and_then(one)))
+/// Draws a figure for light pages and, if requested, for dark pages. `change` sets the options and returns the kind.
+fn drawn(
+    analysis: &Analysis,
+    number: usize,
+    report_options: &ReportOptions,
+    change: &dyn Fn(&mut Options) -> Kind,
+) -> Option<(Drawing, Option<Drawing>)> {
+    let one = |theme: &Theme| {
+        let mut options = Options { theme: theme.clone(), ..options(report_options) };
+        let kind = change(&mut options);
+        figure::panels_of(analysis, kind, &options, &[number]).into_iter().next()
     };
+    Some((one(&report_options.theme)?, report_options.dark.as_ref().and_then(one)))
+}
+
+/// Draws the forces of a frame, and how it falls or would fall. A falling frame begins with its fall.
+fn figures(
+    analysis: &Analysis,
+    number: usize,
+    report_options: &ReportOptions,
+    collapse: Option<&Collapse>,
+) -> Vec<Figure> {
+    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
+    let forces = match found.verdict {
+        Verdict::Stable => "The forces of one possible balance.",
+        Verdict::Unstable if found.failures.is_empty() => "The forces.",
+        Verdict::Unstable => "The forces; missing forces have the colour of failures.",
+        Verdict::Undecided => "Forces that are not proved.",
+    };
+    let mut kinds = vec![(Kind::Forces, None, forces)];
+    let shown = collapse.and_then(|collapse| collapse.figure(found));
+    match shown.or_else(|| other_way(analysis, number).map(|toward| (Kind::Margin, Some(toward)))) {
+        Some((Kind::Mechanism, _)) => kinds.insert(0, (Kind::Mechanism, None, "How it begins to fall.")),
+        Some((kind, toward)) => kinds.push((
+            kind,
+            toward,
+            match toward {
+                Some(Toward::Tilt) => "How it would fall if gravity turned further than its margin.",
+                Some(Toward::HorizontalLoad) => "How it would fall under a larger push to the side.",
+                _ => "How it would fall under more than its margin of loads.",
+            },
+        )),
+        None => {}
+    }
+    if found.movements.iter().any(|moved| matches!(moved.outcome, MovementOutcome::Follows(_))) {
+        kinds.push((Kind::Movement, None, "How the structure cracks as its support moves, enlarged."));
+    }
+    let wide = is_wide(scene, number);
     let mut figures = Vec::new();
-    for (kind, caption) in kinds_of_figures(frame_analysis) {
-        let toward = verdict_text::toward(frame_analysis).filter(|_| kind == Kind::Margin);
+    for (kind, toward, caption) in kinds {
         let change = |options: &mut Options| {
             if let Some(toward) = toward {
                 options.toward = toward;
             }
+            if wide {
+                (options.width, options.height) = (Some(WIDE), Some(WIDE_HEIGHT));
+            }
+            kind
         };
-        if let Some((drawing, dark)) = drawn(kind, &change) {
-            let touches = if figures.is_empty() { ranking.touches() } else { Vec::new() };
+        if let Some((drawing, dark)) = drawn(analysis, number, report_options, &change) {
+            let touches = if figures.is_empty() { Ranking::new(scene, found).touches() } else { Vec::new() };
             figures.push(Figure { caption: caption.to_owned(), drawing, dark, touches, subject: Some((kind, number)) });
         }
     }
     figures
-}
-
-/// Returns the kinds of the figures of a frame, with their captions.
-fn kinds_of_figures(frame_analysis: &FrameAnalysis) -> Vec<(Kind, &'static str)> {
-    let mut kinds = Vec::new();
-    match frame_analysis.verdict {
-        Verdict::Unstable => {
-            if !frame_analysis.mechanism.is_empty() {
-                let caption = "How the structure begins to fall. Dashed: the blocks before they move.";
-                kinds.push((Kind::Mechanism, caption));
-            }
-            let caption = if frame_analysis.failures.is_empty() {
-                "The forces on every block."
-            } else {
-                "The forces on every block; missing forces have the colour of failures."
-            };
-            kinds.push((Kind::Forces, caption));
-        }
-        verdict => {
-            let has_flow = !frame_analysis.contacts.is_empty() && verdict != Verdict::Undecided;
-            kinds.push(if has_flow {
-                (Kind::Flow, "How the forces run from joint to joint.")
-            } else {
-                (Kind::Forces, "The forces on every block.")
-            });
-            if verdict_text::toward(frame_analysis).is_some() {
-                let caption = "How the structure would fall just beyond its margin.";
-                kinds.push((Kind::Margin, caption));
-            }
-            if frame_analysis.movements.iter().any(|m| matches!(m.outcome, MovementOutcome::Follows(_))) {
-                kinds.push((Kind::Movement, "How the structure cracks as its support moves, enlarged."));
-            }
-        }
-    }
-    kinds
-}
-
-/// Describes where the frame fails or would fail first, and what would change its verdict.
-fn failure_description(analysis: &Analysis, number: usize) -> Vec<SheetPart> {
-    let (scene, frame_analysis) = (&analysis.scene, &analysis.frames[number]);
-    let column = |heading: &str, words: Vec<String>| {
-        let words = words.into_iter().map(SheetPart::Text);
-        [SheetPart::Heading(heading.to_owned())].into_iter().chain(words).collect::<Vec<_>>()
-    };
-    let first: Vec<String> = verdict_text::fails_first(analysis, number).into_iter().collect();
-    let take = verdict_text::changes_of_verdict(scene, frame_analysis);
-    let take = if take.is_empty() { take } else { vec![take.join(" ")] };
-    let heading = match frame_analysis.verdict {
-        Verdict::Unstable => "Where the structure fails",
-        _ => "Where the structure would fail first",
-    };
-    let mut columns = Vec::new();
-    if !first.is_empty() {
-        columns.push(column(heading, first));
-    }
-    if !take.is_empty() {
-        columns.push(column("What it would take", take));
-    }
-    if columns.is_empty() { Vec::new() } else { vec![SheetPart::Columns(columns)] }
 }
 
 /// Makes two columns with the inputs of the frame with index `number`.
@@ -227,24 +266,18 @@ fn given(scene: &Scene, number: usize, units: Units) -> SheetPart {
     };
     let mut left = titled("Materials", inputs::materials(scene, number, units));
     left.extend(titled("Loads", inputs::loads(scene, number, units)));
-    left.extend(titled("Robots", inputs::robots(scene, number, units)));
-    SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(scene, number, units))])
+    left.extend(titled("Robots", inputs::robots(scene, number)));
+    SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(scene, number))])
 }
 
-fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
-    let mut grid = Grid::new("", &["margin", "bar", "in words"]);
+/// Makes the table of the margins, each as a bar with numbers at both ends and the present value.
+fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new("", &["margin", "#from", "bar", "to", "#now"]);
     for bar in bullet::margin_bars(scene, frame_analysis) {
-        let words = bar.words.clone();
-        grid.add("", [TableCell::from(bar.name.clone()), TableCell::bar(bar), words.into()]);
+        let [from, to, now] = bar.ends_and_present.clone().map(TableCell::from);
+        grid.add("", [TableCell::from(bar.name.clone()), from, TableCell::bar(bar), to, now]);
     }
-    if grid.lines.is_empty() {
-        return Vec::new();
-    }
-    let notes = frame_analysis.margins.iter().flat_map(|margins| &margins.intervals.notes);
-    let mut parts = vec![SheetPart::Heading("Margins".to_owned()), SheetPart::Table(grid)];
-    parts.push(SheetPart::Note(bullet::SHAPES_LEGEND.to_owned()));
-    parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
-    parts
+    grid
 }
 
 /// Returns the table of the movements of supports, if there are any.
@@ -270,20 +303,14 @@ fn movements(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
 }
 
 fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
-    let frames = match scene.frames.len() {
-        1 => "settlement, time, impact, earthquakes and the order of construction",
-        _ => "settlement, time, impact and earthquakes",
-    };
+    let order = if scene.frames.len() == 1 { ", the order of construction" } else { "" };
     let least = match (frame_analysis.verdict, frame_analysis.least_force) {
-        (Verdict::Stable, true) => " Other balances of forces may exist; the one shown has the least sum of forces.",
-        (Verdict::Stable, false) => {
-            " Other balances of forces may exist; it was not proved that the one shown has the least sum of forces."
-        }
+        (Verdict::Stable, false) => " It was not proved that the balance shown has the least sum of forces.",
         _ => "",
     };
     format!(
-        "Rigid blocks in one plane, at rest, laid dry: joints transmit compression and friction, but no tension; friction \
-         follows Coulomb's law with one coefficient μ. Not considered: the strength of the stone, {frames}.{least}"
+        "Rigid blocks in one plane, at rest, dry joints: compression and Coulomb friction, no tension. Not considered: \
+         strength of the stone, settlement, impact, earthquakes{order}.{least}"
     )
 }
 

@@ -1,15 +1,15 @@
 //! [`sections`] makes the sections of a report on a scene: the main section about the governing step, with a
 //! table of all steps, then pictures of other steps that do not stand, and in a full report an appendix for each step.
 
-use super::joints::{Ranking, missing};
-use super::row::{governing, headline_words, thumbnail};
+use super::joints::Ranking;
+use super::row::{governing, thumbnail};
 use super::sheet::{empty, others, sheet};
-use super::unit::Units;
 use super::{Chart, Grid, ReportOptions, Section, SheetPart, TableCell};
 use crate::mechanics::analysis::{Analysis, EffectName, EffectReport, FrameAnalysis, Stages, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::pictures::chart::{self, Bars};
 use crate::products::result::Timing;
+use crate::products::wording::margin::headline;
 use crate::products::wording::number::{counted, duration, letter, place, prefixed};
 use crate::products::wording::verdict::plain;
 use crate::products::wording::{failure, proof};
@@ -24,11 +24,10 @@ pub(super) fn sections(analysis: &Analysis, report_options: &ReportOptions) -> V
     let count = analysis.frames.len();
     let governing = governing(analysis);
     let steps = (count > 1).then(|| table(analysis));
-    let mut first = sheet(analysis, governing, steps, report_options);
+    let mut sections = Vec::from(sheet(analysis, governing, steps, report_options));
     if count > 1 {
-        first.title = format!("{} (the step that governs)", first.title);
+        sections[0].title = format!("{} (the step that governs)", sections[0].title);
     }
-    let mut sections = vec![first];
     let falling = (0..count).filter(|n| analysis.frames[*n].verdict != Verdict::Stable && *n != governing);
     let falling: Vec<usize> = falling.take(if report_options.full { count } else { MAX_FALLING_STEPS }).collect();
     if !falling.is_empty() {
@@ -45,17 +44,16 @@ pub(super) fn sections(analysis: &Analysis, report_options: &ReportOptions) -> V
 
 fn table(analysis: &Analysis) -> Grid {
     let scene = &analysis.scene;
-    let mut grid = Grid::new("", &["picture", "step", "verdict", "headline margin", "governing joint"]);
+    let mut grid = Grid::new("", &["picture", "step", "verdict", "headline margin"]);
     for (number, frame_analysis) in analysis.frames.iter().enumerate() {
         let title = match scene.frames[number].title.as_str() {
             "" => format!("Step {}", number + 1),
             title => line(title),
         };
-        let headline = match headline_words(scene, number, frame_analysis) {
+        let headline = match headline(scene, number, frame_analysis) {
             words if words.is_empty() => "–".to_owned(),
-            words => words,
+            words => line(&words),
         };
-        let governing = Ranking::new(scene, frame_analysis).governing();
         grid.add(
             "",
             [
@@ -63,7 +61,6 @@ fn table(analysis: &Analysis) -> Grid {
                 format!("({}) {title}", letter(number)).into(),
                 TableCell::strong_if(frame_analysis.verdict != Verdict::Stable, plain(frame_analysis.verdict)),
                 headline.into(),
-                governing.unwrap_or_else(|| "–".to_owned()).into(),
             ],
         );
     }
@@ -80,7 +77,7 @@ fn appendix(analysis: &Analysis, number: usize, report_options: &ReportOptions) 
     let mut section = empty(scene, number, frame_analysis.verdict);
     section.title = format!("Appendix {}", section.title).trim_end().to_owned();
     let grids = [
-        Ranking::new(scene, frame_analysis).table(true),
+        Ranking::new(scene, frame_analysis).table(),
         failures(scene, frame_analysis),
         cost(frame_analysis, report_options.timing),
         proved(frame_analysis),
@@ -96,9 +93,8 @@ fn failures(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
     for what in failure::unsupported(scene, frame_analysis, usize::MAX) {
         grid.add("", [line(&what), String::new()]);
     }
-    let units = Units::new(scene, frame_analysis);
     for (number, failed) in frame_analysis.failures.iter().enumerate() {
-        let cells = [line(&missing(scene, failed, units)), place(failed.at(), scene.units)];
+        let cells = [line(&failure::missing_sentence(scene, failed)), place(failed.at(), scene.units)];
         grid.add(format!("f{number}"), cells);
     }
     grid

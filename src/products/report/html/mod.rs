@@ -168,9 +168,8 @@ fn overview(head: &Head<'_>, link: &dyn Fn(usize) -> String) -> Markup {
                             th scope="col" data-sort="text" { "name" }
                             th scope="col" data-sort="text" { "verdict" }
                             @if margins { th scope="col" data-sort="number" { "headline margin" } }
-                            th.number scope="col" data-sort="number" { "friction used (standing steps)" }
                             th.number scope="col" data-sort="number" { "blocks" }
-                            th.number scope="col" data-sort="number" { "largest force (standing steps)" }
+                            th.number scope="col" data-sort="number" { "largest force in one balance (standing steps)" }
                             th scope="col" data-sort="text" { (fails) }
                         }
                     }
@@ -200,7 +199,6 @@ fn line(row: &Row, link: &str, margins: bool) -> Markup {
                 @if !steps.is_empty() { span.file { (steps) } }
             }
             @if margins { td data-value=(row.reserve) { (row.margin_words()) } }
-            td.number data-value=(row.friction.unwrap_or(-1.0)) { (row.friction_words()) }
             td.number data-value=(row.blocks) { (row.blocks) }
             td.number data-value=(row.largest.unwrap_or(-1.0)) { (row.largest_words()) }
             td.fails { bdi dir="ltr" { (row.fails) } }

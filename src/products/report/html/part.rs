@@ -182,12 +182,8 @@ fn badge(badge: &Badge) -> Markup {
         div.badge.(plain(badge.verdict)) {
             p.word { (verdict(badge.verdict)) }
             div {
-                @if !badge.headline.is_empty() { p.headline { strong { bdi dir="ltr" { (badge.headline) "." } } } }
-                @if let Some(of) = &badge.bar {
-                    (bar(of))
-                    p.small { bdi dir="ltr" { (of.short()) } }
-                }
-                p.sentence { bdi dir="ltr" { (badge.sentence) } }
+                @if !badge.headline.is_empty() { p.headline { strong { bdi dir="ltr" { (badge.headline) } } } }
+                @if !badge.sentence.is_empty() { p.sentence { bdi dir="ltr" { (badge.sentence) } } }
             }
         }
     }

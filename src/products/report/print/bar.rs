@@ -117,59 +117,32 @@ impl BarPlace<'_> {
 const WORD_WIDTH: f64 = 150.0;
 /// Space above and below the content of the panel, pixels.
 const PADDING: f64 = 10.0;
-/// Height of the bar of the headline margin, with the space below it, pixels.
-const BAR_HEIGHT: f64 = 22.0;
 /// Font size of the headline, pixels.
 const HEADLINE_SIZE: f64 = 14.0;
 
-/// The texts of a badge. Code points replace characters that the fonts do not have.
-struct BadgeTexts {
-    headline: Option<String>,
-    /// The headline margin in words.
-    margin: Option<String>,
-    sentence: String,
-}
-
-impl BadgeTexts {
-    /// Returns the height, in pixels, of the panel for these texts. A line of text is at most `room` pixels wide.
-    fn height(&self, room: f64) -> f64 {
-        let lines =
-            |words: &str, face: Face, size: f64| LINE_HEIGHT * size * wrap(words, face, size, room).len() as f64;
-        let headline = self.headline.as_ref();
-        let headline = headline.map_or(0.0, |words| lines(words, Face::SansBold, HEADLINE_SIZE));
-        let margin = self.margin.as_ref();
-        let margin = margin.map_or(0.0, |words| BAR_HEIGHT + lines(words, Face::Sans, SMALL_TEXT_SIZE));
-        2.0 * PADDING + headline + margin + lines(&self.sentence, Face::Sans, SMALL_TEXT_SIZE)
-    }
-}
-
 impl Flow {
-    /// Adds a tinted panel with the verdict, its reasons and the headline margin.
+    /// Adds a tinted panel with the verdict, the headline margin and the reasons.
     pub fn badge(&mut self, badge: &Badge) {
         let (left, room) = (self.left, self.room);
         let inner = room - WORD_WIDTH - COLUMN_GAP;
-        let headline = (!badge.headline.is_empty()).then(|| format!("{}.", badge.headline));
-        let words = BadgeTexts {
-            headline: headline.map(|words| self.legible(&words)),
-            margin: badge.bar.as_ref().map(|bar| self.legible(&bar.short())),
-            sentence: self.legible(&badge.sentence),
+        let lines = |words: &str, face: Face, size: f64| {
+            let count = if words.is_empty() { 0 } else { wrap(words, face, size, inner).len() };
+            LINE_HEIGHT * size * count as f64
         };
-        let high = words.height(inner);
+        let [headline, sentence] = [&badge.headline, &badge.sentence].map(|words| self.legible(words));
+        let text = lines(&headline, Face::SansBold, HEADLINE_SIZE) + lines(&sentence, Face::Sans, SMALL_TEXT_SIZE);
+        let high = 2.0 * PADDING + text.max(LINE_HEIGHT * HEADLINE_SIZE);
         self.reserve(high + 8.0);
         let top = self.y;
         self.verdict_panel(badge.verdict, high);
         (self.left, self.room) = (left + WORD_WIDTH, inner);
-        let (ink, faint) = (self.theme.ink, self.theme.faint);
-        if let Some(headline) = &words.headline {
-            self.words(headline, Face::SansBold, HEADLINE_SIZE, ink, &Role::Paragraph);
+        let ink = self.theme.ink;
+        for (words, face, size) in [(headline, Face::SansBold, HEADLINE_SIZE), (sentence, Face::Sans, SMALL_TEXT_SIZE)]
+        {
+            if !words.is_empty() {
+                self.words(&words, face, size, ink, &Role::Paragraph);
+            }
         }
-        if let (Some(of), Some(margin)) = (&badge.bar, &words.margin) {
-            let at = PagePoint::new(self.left, self.y + 2.0);
-            draw(self, of, at, 240.0);
-            self.y += BAR_HEIGHT;
-            self.words(margin, Face::Sans, SMALL_TEXT_SIZE, faint, &Role::Paragraph);
-        }
-        self.words(&words.sentence, Face::Sans, SMALL_TEXT_SIZE, ink, &Role::Paragraph);
         (self.left, self.room) = (left, room);
         self.y = top + high + 8.0;
     }

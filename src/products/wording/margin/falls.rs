@@ -1,7 +1,7 @@
 //! [`lack`] describes what a falling frame lacks to stand, for example which fraction of its load it
 //! carries.
 
-use super::super::number::NO_BREAK;
+use super::super::number::{NO_BREAK, three_down, three_up};
 use super::confirmed;
 use super::list::friction;
 use crate::mechanics::analysis::{FrameAnalysis, Interval, Verdict};
@@ -32,15 +32,12 @@ fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
     let [low, high] = [interval.low()?, interval.high()?].map(confirmed);
     match (low, high) {
         // Round down, so that the frame carries at least the written fraction.
-        (_, Some(high)) if high < 1.0 => {
-            let share = libm::floor(100.0 * high + 1e-4);
-            Some(if share >= 1.0 {
-                format!("carries {share}{NO_BREAK}% of its {loads}")
-            } else {
-                format!("carries less than 1{NO_BREAK}% of its {loads}")
-            })
-        }
-        (Some(low), _) if low > 1.0 => Some(format!("would need {} times its {loads}", above(low))),
+        (_, Some(high)) if high < 1.0 => Some(if high >= 0.01 {
+            format!("carries {}{NO_BREAK}% of its {loads}", three_down(100.0 * high))
+        } else {
+            format!("carries less than 1{NO_BREAK}% of its {loads}")
+        }),
+        (Some(low), _) if low > 1.0 => Some(format!("would need {} times its {loads}", three_up(low))),
         _ => None,
     }
 }
@@ -56,13 +53,7 @@ fn friction_lack(frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<
         Interval::Between { low, .. } => {
             let low = confirmed(low).filter(|low| *low > least)?;
             let everywhere = if least < most { " at every joint" } else { "" };
-            Some(format!("would need friction {}{everywhere}", above(low)))
+            Some(format!("would need friction {}{everywhere}", three_up(low)))
         }
     }
-}
-
-/// Writes a positive number with two decimals. The number is rounded up, so that the frame stands at the written
-/// value.
-fn above(value: f64) -> String {
-    format!("{:.2}", libm::ceil(100.0 * value - 1e-4) / 100.0)
 }

@@ -7,7 +7,7 @@ use super::{Parameter, StatedMargin, confirmed};
 use crate::mechanics::analysis::{End, FrameAnalysis, Motion, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::products::wording::case;
-use crate::products::wording::number::{three_down, three_up};
+use crate::products::wording::number::{digits, three_down, three_up};
 
 /// The needed friction is stated if it is at least this fraction of the present friction.
 const NEAR_FRICTION: f64 = 0.8;
@@ -15,8 +15,10 @@ const NEAR_FRICTION: f64 = 0.8;
 /// The words after a verdict, and the motion to which they belong.
 #[derive(Clone, Debug, Default)]
 pub struct Governing<'a> {
-    /// The margins in words, the headline margin first: `carries 2.8 × its loads`. Rounded to the safe side.
+    /// The margins in words, the headline margin first: `carries 2.81 × its loads`. Rounded to the safe side.
     pub words: Vec<String>,
+    /// The parameter of the first margin; `None` for a frame that falls.
+    pub parameter: Option<Parameter>,
     /// What the first margin is a value of: `this load`, `this tilt`. Empty for a frame that falls.
     pub at: &'static str,
     /// The collapse just beyond the first margin; for a frame that falls, its own collapse. Empty if it is not known.
@@ -41,6 +43,12 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
     governing
 }
 
+/// Returns the same words as one text, for tables: `carries 2.81 × its load · falls at 19° of tilt`.
+#[cfg(any(feature = "report", feature = "cli"))]
+pub fn headline(scene: &Scene, number: usize, found: &FrameAnalysis) -> String {
+    governing(scene, number, found).words.join(" · ")
+}
+
 fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governing<'a> {
     let margins = stated(scene, found);
     let mut governing = Governing::default();
@@ -53,6 +61,7 @@ fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governin
         let Some((words, end)) = reserve(margin, found, load).filter(|_| place == 0 || is_more) else {
             continue;
         };
+        governing.parameter.get_or_insert(margin.parameter);
         if governing.words.is_empty()
             && let Some(End::At { mechanism, .. }) = end
         {
@@ -89,84 +98,37 @@ fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> 
         let mut sides: Vec<(f64, Option<&'a End>, &str)> = sides.collect();
         sides.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (near, end, side) = *sides.first()?;
-        let is_alike = sides.get(1).is_some_and(|other| down(other.0) == down(near));
+        let is_alike = sides.get(1).is_some_and(|other| three_down(other.0) == three_down(near));
         Some((near, end, if is_alike { "" } else { side }))
     };
     match margin.parameter {
         Parameter::LoadFactor => {
-            let (factor, end) = value(high)?;
-            Some((format!("carries {} × its {load}", down(factor)), end))
+            if let Some((factor, end)) = value(high) {
+                return Some((format!("carries {} × its {load}", three_down(factor)), end));
+            }
+            // Some structures fall if their loads, such as a counterweight, become smaller.
+            let (factor, end) = value(low).filter(|(factor, _)| *factor > 0.0)?;
+            Some((format!("needs {} × its {load}", three_up(factor)), end))
         }
         Parameter::Tilt => {
             let (angle, end, side) = nearest()?;
-            Some((format!("falls at {}° of tilt{side}", down(angle)), end))
+            Some((format!("falls at {}° of tilt{side}", three_down(angle)), end))
         }
         Parameter::HorizontalLoad => {
             let (share, end, side) = nearest()?;
             let side = if side.is_empty() { " sideways" } else { side };
-            Some((format!("falls at {} × its weight{side}", down(share)), end))
+            Some((format!("falls at {} × its weight{side}", three_down(share)), end))
         }
         Parameter::Friction => {
             let (needed, end) = value(low).filter(|(needed, _)| *needed > 0.0)?;
             let (least, most) = friction(found)?;
-            let has =
-                if least < most { format!("{}–{}", three_down(least), three_up(most)) } else { three_down(least) };
-            Some((format!("needs friction {} of {has}", up(needed)), end))
+            let has = if least < most { format!("{}–{}", digits(least), digits(most)) } else { digits(least) };
+            Some((format!("needs friction {} of {has}", three_up(needed)), end))
         }
         Parameter::Kernel => {
             let (kernel, end) = value(high)?;
-            Some((format!("stands up to a kernel of {}", down(kernel)), end))
+            Some((format!("stands up to a kernel of {}", three_down(kernel)), end))
         }
         Parameter::RobotForce(_) | Parameter::RobotTorque(_) => None,
-    }
-}
-
-/// Writes a positive number with two significant digits, rounded down: `2.8`, `19`, `0.56`.
-fn down(value: f64) -> String {
-    two(value, -1.0)
-}
-
-/// Writes a positive number with two significant digits, rounded up.
-fn up(value: f64) -> String {
-    two(value, 1.0)
-}
-
-/// Writes a positive number with two significant digits, and from 10 on without decimals, rounded up if `sign` is 1 and
-/// down if it is −1. Margins have a relative error of 1e-6, which does not change the last digit.
-fn two(value: f64, sign: f64) -> String {
-    /// The relative error of margins.
-    const MARGIN_TOL: f64 = 1e-6;
-    if !(value > 0.0 && value.is_finite()) {
-        return "0".to_owned();
-    }
-    let digits = libm::floor(libm::log10(value) + 1e-12) as i32;
-    let decimals = usize::try_from((1 - digits).max(0)).unwrap_or(0);
-    let unit = libm::exp10(decimals as f64);
-    let scaled = value * unit;
-    let nearest = scaled.round();
-    let rounded = match () {
-        () if (scaled - nearest).abs() <= MARGIN_TOL * scaled => nearest,
-        () if sign > 0.0 => libm::ceil(scaled),
-        () => libm::floor(scaled),
-    };
-    let written = format!("{:.decimals$}", rounded / unit);
-    if written.contains('.') {
-        return written.trim_end_matches('0').trim_end_matches('.').to_owned();
-    }
-    written
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn margins_are_rounded_to_the_safe_side_with_two_digits() {
-        let cases = [(2.812, "2.8", "2.9"), (19.03, "19", "20"), (0.5616, "0.56", "0.57"), (3.065, "3", "3.1")];
-        for (value, low, high) in cases {
-            assert_eq!((down(value).as_str(), up(value).as_str()), (low, high), "{value}");
-        }
-        assert_eq!((down(2.0 - 1e-9), up(0.3 + 1e-9)), ("2".to_owned(), "0.3".to_owned()));
-        assert_eq!((down(123.7), down(0.0123)), ("123".to_owned(), "0.012".to_owned()));
     }
 }

@@ -8,13 +8,16 @@ mod governing;
 mod list;
 mod range;
 
-pub use governing::governing;
+pub use governing::{governing, headline};
 pub use list::stated;
 pub use range::stands;
 
-use super::number::{amount, digits};
+use super::number::{amount, digits, three_down, three_up};
 use crate::mechanics::analysis::{End, FrameAnalysis, Interval, UNDECIDED};
 use crate::mechanics::scene::{Scene, Unit};
+
+/// Smaller values of a parameter are rounding errors.
+const NOISE: f64 = 1e-9;
 
 /// The parameter that a margin varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,16 +58,32 @@ impl Parameter {
         if let Parameter::RobotForce(unit) | Parameter::RobotTorque(unit) = self {
             return amount(value, unit);
         }
+        self.written(value, &digits)
+    }
+
+    /// Writes an end of an interval at which the frame stands, rounded into the interval. `is_upper` is true for the
+    /// upper end.
+    pub(in crate::products) fn end(self, value: f64, is_upper: bool) -> String {
+        match self {
+            Parameter::RobotForce(_) | Parameter::RobotTorque(_) => self.value(value),
+            _ if is_upper == (value >= 0.0) => self.written(value, &three_down),
+            _ => self.written(value, &three_up),
+        }
+    }
+
+    /// Writes a value with its unit and its side. `number` writes its size.
+    fn written(self, value: f64, number: &dyn Fn(f64) -> String) -> String {
         let unit = self.unit();
+        let value = if value.abs() < NOISE { 0.0 } else { value };
         if !self.is_signed() {
-            return format!("{}{unit}", digits(value));
+            return format!("{}{unit}", number(value));
         }
         let side = match value {
             v if v < 0.0 => " left",
             v if v > 0.0 => " right",
             _ => "",
         };
-        format!("{}{unit}{side}", digits(value.abs()))
+        format!("{}{unit}{side}", number(value.abs()))
     }
 }
 
@@ -125,6 +144,29 @@ impl StatedMargin<'_> {
             Position::Unknown if is_interval && low == high => format!("{now}, {UNDECIDED}"),
             _ => now,
         })
+    }
+
+    /// Returns the two ends of the interval and the current value in words: `0.3`, `no limit`, `1`.
+    pub fn ends_and_present(&self) -> [String; 3] {
+        let parameter = self.parameter;
+        let end = |end: Option<&End>, is_upper: bool| match end {
+            None => "none".to_owned(),
+            Some(End::Unbounded) => "no limit".to_owned(),
+            Some(End::At { value, .. }) => parameter.end(*value, is_upper),
+            Some(End::Unconfirmed { stands, .. }) => format!("at least {}", parameter.end(*stands, is_upper)),
+        };
+        let ends = match self.interval {
+            Interval::Undecided => [UNDECIDED.to_owned(), UNDECIDED.to_owned()],
+            interval => [end(interval.low(), false), end(interval.high(), true)],
+        };
+        let present = match self.present {
+            None => "–".to_owned(),
+            Some((low, _)) if low.is_infinite() => "no limit".to_owned(),
+            Some((low, high)) if low == high => parameter.value(low),
+            Some((low, high)) => format!("{} to {}", parameter.value(low), parameter.value(high)),
+        };
+        let [low, high] = ends;
+        [low, high, present]
     }
 
     /// True if the frame stands at every value of the parameter.

@@ -57,14 +57,17 @@ fn range(parameter: Parameter, low: &End, high: &End) -> String {
     let begins = |low: &f64| parameter.is_signed() || *low > 0.0;
     let least = confirmed(low).filter(begins);
     let most = confirmed(high);
-    let value = |value: f64| parameter.value(value);
+    let least_words = |value: f64| parameter.end(value, false);
+    let value = |value: f64| parameter.end(value, true);
+    // An interval that is shorter than the rounding is one value.
+    let is_one = |low: f64, high: f64| parameter.value(low) == parameter.value(high);
     if parameter == Parameter::LoadFactor {
         let factor = match (least, most) {
             (None, None) => "any factor".to_owned(),
             (None, Some(high)) => format!("at most {}", value(high)),
-            (Some(low), None) => format!("at least {}", value(low)),
-            (Some(low), Some(high)) if value(low) == value(high) => value(low),
-            (Some(low), Some(high)) => format!("{} to {}", value(low), value(high)),
+            (Some(low), None) => format!("at least {}", least_words(low)),
+            (Some(low), Some(high)) if is_one(low, high) => parameter.value(low),
+            (Some(low), Some(high)) => format!("{} to {}", least_words(low), value(high)),
         };
         return format!("with its loads times {factor}");
     }
@@ -74,12 +77,12 @@ fn range(parameter: Parameter, low: &End, high: &End) -> String {
             format!("up to {}, without a limit to the left", value(high))
         }
         (Some(low), None) if parameter.is_signed() => {
-            format!("from {} on, without a limit to the right", value(low))
+            format!("from {} on, without a limit to the right", least_words(low))
         }
         (None, Some(high)) => format!("up to {}", value(high)),
-        (Some(low), None) => format!("at {} and more", value(low)),
+        (Some(low), None) => format!("at {} and more", least_words(low)),
         // If both ends have the same text, they are equal at the printed precision.
-        (Some(low), Some(high)) if value(low) == value(high) => format!("only at {}", value(low)),
-        (Some(low), Some(high)) => format!("from {} to {}", value(low), value(high)),
+        (Some(low), Some(high)) if is_one(low, high) => format!("only at {}", parameter.value(low)),
+        (Some(low), Some(high)) => format!("from {} to {}", least_words(low), value(high)),
     }
 }

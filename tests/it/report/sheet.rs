@@ -1,0 +1,69 @@
+//! The sheet of a scene: two pages, with what a support is, the stone, and the collapse of the headline margin.
+
+use super::Folder;
+
+fn scene(name: &str) -> String {
+    let path = format!("{}/tests/scenes/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).expect("readable")
+}
+
+#[test]
+fn a_sheet_has_two_pages_with_an_outline_margins_forces_and_the_collapse() {
+    for name in ["arch13", "archload", "buttress", "loaded", "slide"] {
+        let folder = Folder::new(&[("a.json", &scene(name))]);
+        folder.done("report a.json -o a.pdf");
+        let pdf = std::fs::read(folder.path("a.pdf")).expect("there");
+        let pdf = String::from_utf8_lossy(&pdf);
+        let pages = pdf.matches("/Type/Page/").count() + pdf.matches("/Type /Page\n").count();
+        assert_eq!(pages, 2, "{name}");
+        folder.done("report a.json -o a.html");
+        let page = folder.text("a.html");
+        let at = |words: &str| page.find(words).unwrap_or_else(|| panic!("{name}: {words}"));
+        let parts = [
+            "data-kind=\"structure\"",
+            ">Supports and settings<",
+            ">Reactions<",
+            ">Margins<",
+            "data-kind=\"forces\"",
+            ">Balance of forces<",
+            ">Assumptions and proof<",
+        ];
+        let places = parts.map(at);
+        assert!(places.is_sorted(), "{name}: {places:?}");
+        assert!(page.contains(">Where it would fail first<") || page.contains(">Where it fails<"), "{name}");
+        assert!(!page.contains("no room for"), "{name}");
+    }
+}
+
+/// The joints of the table are those of the collapse of the headline margin, and the use of the listed balance is called
+/// one of many.
+#[test]
+fn the_joints_are_those_of_the_collapse_of_the_headline_margin() {
+    let folder = Folder::new(&[("a.json", &scene("archload"))]);
+    folder.done("report a.json -o a.md");
+    let text = folder.text("a.md");
+    assert!(text.contains("of one possible balance") || text.contains("missing"), "{text}");
+    let rows = text.lines().filter(|line| line.contains("| hinge |")).count();
+    assert!(text.contains(&format!("with {rows} hinges")), "{text}");
+    for words in ["opening 100", "nearest to opening", "Governing"] {
+        assert!(!text.contains(words), "{words}: {text}");
+    }
+}
+
+#[test]
+fn a_support_is_named_by_its_side_and_a_stone_by_its_numbers() {
+    let text = r#"{ "drystone": 1, "density": 2700, "friction": 0.58,
+        "ground": [{ "polygon": [[-1, -1], [3, -1], [3, 0], [-1, 0]] },
+                   { "polygon": [[1, 0], [2, 0], [2, 3], [1, 3]] }],
+        "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 2], [0, 2]] }],
+        "loads": [{ "block": "a", "at": [0, 1], "force": [3000, 0] }] }"#;
+    let granite = drystone::import::STONES.iter().find(|stone| stone.name == "granite").expect("known");
+    let text = text.replace("2700", &granite.density.to_string()).replace("0.58", &granite.friction.to_string());
+    let folder = Folder::new(&[("a.json", &text)]);
+    folder.done("report a.json -o a.md");
+    let page = folder.text("a.md");
+    for words in ["| ground under a |", "| wall right of a |", "| as granite |"] {
+        assert!(page.contains(words), "{words}: {page}");
+    }
+    assert!(!page.contains("unnamed"), "{page}");
+}
