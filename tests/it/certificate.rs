@@ -266,6 +266,10 @@ fn the_program_writes_and_verifies_a_certificate() {
     assert!(code == Some(0) && json.contains("\"exact\": true"), "{json}");
     let (code, text) = run(&["verify", "proof.json", "stands.json"]);
     assert!(code == Some(0) && text.contains("frame 1: stands, exactly"), "{text}");
+    run(&["check", "stands.json", "--capacity", "a@2.2,1..2.8,1", "--certificate", "points.json"]);
+    let (code, text) = run(&["verify", "points.json", "stands.json"]);
+    let is_whole = text.contains("capacity corner 0") && text.contains("capacity edge 0");
+    assert!(code == Some(0) && is_whole && !text.contains("not proved"), "{text}");
     let (code, text) = run(&["verify", "proof.json", "falls.json"]);
     assert!(code == Some(2) && text.contains("is not about falls.json: the bodies differ"), "{text}");
     let (code, json) = run(&["check", "falls.json", "--json", "--no-timing", "--accuracy", "proved"]);

@@ -79,10 +79,7 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
             "products/snapshot/fact/",
         ],
     ),
-    (
-        "dashu_ratio",
-        &["mechanics/certificate/check.rs", "mechanics/certificate/fraction.rs", "mechanics/certificate/places.rs"],
-    ),
+    ("dashu_ratio", &["mechanics/certificate/fraction.rs"]),
     ("hmac_sha256", &["entry/cli/verify.rs"]),
     (
         "serde_json",

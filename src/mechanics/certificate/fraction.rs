@@ -1,6 +1,6 @@
 //! [`Vector`] and [`Wrench`]: points, forces and motions of rational numbers. No number is rounded.
 
-use dashu_ratio::Relaxed as Rational;
+pub(super) use dashu_ratio::Relaxed as Rational;
 
 use super::Pair;
 

@@ -94,35 +94,39 @@ impl Limits<'_> {
     }
 
     /// Adds a proof just inside each corner of a capacity, and one just beyond each edge. A capacity in ranges of
-    /// parameters, and a force at two points, have none.
+    /// parameters has none. A force at two points is their resultant at the first, with its torque.
     fn add_capacity(&self, proofs: &mut Vec<LimitForm>, capacity: &LoadCapacity) {
         let Some(body) = self.assembly.bodies.iter().position(|body| body.block == capacity.block) else { return };
-        let (&[at], 1, false) = (&capacity.at[..], capacity.cases, capacity.vertices.is_empty()) else { return };
+        let (Some(&at), 1, false) = (capacity.at.first(), capacity.cases, capacity.vertices.is_empty()) else { return };
         let without = capacity.robot.and_then(|robot| self.assembly.grips.iter().position(|grip| grip.robot == robot));
         let corners: Vec<Vector> = capacity.vertices.iter().map(|vertex| vertex.force).collect();
+        let torques: Vec<f64> = capacity.vertices.iter().map(|vertex| vertex.torque).collect();
+        let middle_torque = torques.iter().sum::<f64>() / torques.len() as f64;
         let size = corners.iter().map(|force| force.norm()).fold(LEAST_SIZE * self.assembly.heaviest_load(), f64::max);
         let far = capacity.rays.iter().sum::<Vector>() * size;
         let middle = corners.iter().sum::<Vector>() / corners.len() as f64 + far;
-        let loaded = |force: Vector| {
-            let load = LoadForm { force: [force.x, force.y], at: [at.x, at.y], torque: 0.0 };
+        let loaded = |force: Vector, torque: f64| {
+            let load = LoadForm { force: [force.x, force.y], at: [at.x, at.y], torque };
             let mut changed = self.assembly.clone();
             let own = &mut changed.bodies[body];
-            own.load = own.load.plus(load_about(own.centroid, at, force, 0.0));
+            own.load = own.load.plus(load_about(own.centroid, at, force, torque));
             if let Some(grip) = without {
                 let limits = &mut changed.grips[grip].limits;
                 (limits.fx, limits.fy, limits.torque) = (0.0, 0.0, 0.0);
             }
             (Change::Force(self.bare.placed[body], load, without), changed)
         };
-        for (number, corner) in corners.iter().enumerate() {
-            let inside = |share: f64| loaded(corner + (middle - corner) * share);
+        for (number, (corner, torque)) in corners.iter().zip(&torques).enumerate() {
+            let inside =
+                |share: f64| loaded(corner + (middle - corner) * share, torque + (middle_torque - torque) * share);
             proofs.extend(self.proof(&format!("capacity corner {number}"), Verdict::Stable, &[], &inside));
         }
         for (number, edge) in capacity.edges.iter().enumerate() {
-            let ends: Vec<Vector> = edge.ends.iter().flatten().map(|corner| corners[*corner]).collect();
-            let Some(first) = ends.first().or(corners.first()) else { continue };
-            let on_edge = (first + ends.last().unwrap_or(first)) / 2.0;
-            let beyond = |share: f64| loaded(on_edge + edge.normal * (share * size));
+            let ends: Vec<usize> = edge.ends.iter().flatten().copied().collect();
+            let (first, last) = (ends.first().unwrap_or(&0), ends.last().unwrap_or(&0));
+            let on_edge = (corners[*first] + corners[*last]) / 2.0;
+            let torque = (torques[*first] + torques[*last]) / 2.0;
+            let beyond = |share: f64| loaded(on_edge + edge.normal * (share * size), torque);
             let name = format!("capacity edge {number}");
             proofs.extend(self.proof(&name, Verdict::Unstable, &edge.mechanism, &beyond));
         }

@@ -14,10 +14,13 @@
 //! ([Livesley78](crate::doc::references)).
 
 mod check;
+mod fall;
 mod fraction;
 mod limits;
+mod links;
 mod make;
 mod places;
+mod stand;
 
 use serde::{Deserialize, Serialize};
 

@@ -1,10 +1,8 @@
 //! Checks in exact arithmetic that the contacts of a frame are those of its outlines: each lies where it says, and none is
 //! left out.
 
-use dashu_ratio::Relaxed as Rational;
-
-use super::check::normal_of;
-use super::fraction::{Vector, exact, float, square, square_length, zero};
+use super::fraction::{Rational, Vector, exact, float, square, square_length, zero};
+use super::links::normal_of;
 use super::{BodyForm, Certificate, ContactForm, FrameForm};
 
 impl Certificate {
