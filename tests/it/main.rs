@@ -18,6 +18,7 @@ mod brought;
 mod built;
 mod circle;
 mod claims;
+mod column;
 mod costly;
 mod edge;
 mod falls;

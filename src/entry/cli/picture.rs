@@ -35,7 +35,7 @@ request! {
         /// Colour of the page: white, #rrggbb, or none for a transparent page; outlines around arrows keep the page
         /// colour of the theme [default: the page colour of the theme]
         background: Option<Background> = given.value("background", str::parse), arg(long, value_name = "COLOUR");
-        /// How an SVG contains text: with names of fonts, with fonts in the file, or as outlines [default: names]
+        /// How an SVG contains text: with names of fonts, with fonts in the file, or as outlines [default: embed]
         text: Option<Words> = given.word("text"), arg(long, value_parser = typed_word::<Words>(), value_name = "FORM");
         /// A font file (.ttf, .otf, .ttc) for scripts that the built-in fonts lack; may be given several times. Without
         /// it, drystone writes these characters as code points wherever it lays out the text itself
@@ -76,7 +76,7 @@ impl Word for Words {
     fn help(self) -> &'static str {
         match self {
             Words::Names => "A small file; the reader's program sets the text in its own fonts",
-            Words::Embedded => "For browsers: text that looks the same everywhere and can be searched",
+            Words::Embedded => "Looks the same in every browser, and can be searched; about 12 kB larger",
             Words::Outlines => "For all other programs: looks the same everywhere, but the text cannot be searched",
         }
     }
@@ -127,7 +127,7 @@ impl Picture {
         let settings = Settings {
             size: self.size(),
             width_mm: self.width_mm,
-            words: self.text.unwrap_or_default(),
+            words: self.text.unwrap_or(Words::Embedded),
             compression: self.compression,
             fonts,
         };
@@ -184,7 +184,7 @@ impl Picture {
     /// True if drystone itself lays out the text of a picture in this format; false if the program that shows the
     /// picture does.
     pub(crate) fn draws_words(&self, format: Format) -> bool {
-        format.lays_out_words(self.text.unwrap_or_default())
+        format.lays_out_words(self.text.unwrap_or(Words::Embedded))
     }
 
     /// Returns the size that the options select. The default is two pixels per unit of the drawing, which is sharp on

@@ -155,8 +155,6 @@ pub struct Marks {
     pub newtons_per_unit: f64,
 }
 
-impl Marks {}
-
 /// Returns the smallest number with one significant digit that is at least `amount`. Returns `amount` itself if it is
 /// not positive and finite.
 pub(crate) fn round_above(amount: f64) -> f64 {

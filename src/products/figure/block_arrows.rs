@@ -12,9 +12,9 @@ use super::design::{Key, Layer, Mark};
 use super::fill::Fills;
 use super::joint_forces;
 use super::option::ArrowScale;
+use super::panel::Figure;
 use super::parallel_arrows::separate_parallel_arrows;
 use super::placing::Label;
-use super::sheet::Figure;
 use super::stage;
 use super::unit::unit;
 use super::words::{quantity, round_below_in};
@@ -88,11 +88,6 @@ fn largest(canvas: &Canvas<'_>) -> f64 {
         ArrowScale::Panel => of(canvas.number),
         ArrowScale::Strip => (0..canvas.analysis.frames.len()).map(of).fold(0.0, f64::max),
     }
-}
-
-/// True if all panels have the same scale of arrows.
-fn has_one_scale(canvas: &Canvas<'_>) -> bool {
-    canvas.options.scale == ArrowScale::Strip || !canvas.look.is_strip
 }
 
 /// Returns the outline of an arrow on the page, whose shaft is at least [`SHAFT`] wide. An arrow that would be shorter
@@ -195,10 +190,10 @@ fn force_key(canvas: &Canvas<'_>) -> Rc<Key> {
     for place in 1..=canvas.scene().blocks.len().min(theme.arrows.len()) {
         colours.push(theme.arrow(place));
     }
-    let step = canvas.mm(4.0);
-    let symbol = colours.iter().enumerate().map(|(n, colour)| symbol(canvas, n as f64 * step, 0.85 * step, *colour));
-    let words = "the forces on a block share a colour".to_owned();
-    Rc::new(Key { rank: 22, words, symbol: symbol.collect(), width: (colours.len() as f64 - 0.15) * step })
+    let step = canvas.mm(2.6);
+    let symbol = colours.iter().enumerate().map(|(n, colour)| symbol(canvas, n as f64 * step, 0.9 * step, *colour));
+    let words = "one colour per block".to_owned();
+    Rc::new(Key { rank: 22, words, symbol: symbol.collect(), width: (colours.len() as f64 - 0.1) * step })
 }
 
 fn weight_key(canvas: &Canvas<'_>) -> Rc<Key> {
@@ -212,7 +207,7 @@ fn weight_key(canvas: &Canvas<'_>) -> Rc<Key> {
 /// Returns the entry that explains the shortest arrows.
 fn tick_key(canvas: &Canvas<'_>) -> Rc<Key> {
     let tick = canvas.mm(TICK);
-    let words = if has_one_scale(canvas) {
+    let words = if canvas.has_one_scale() {
         let newtons = round_above(tick / canvas.scale);
         format!("up to {}", quantity(newtons, canvas.scene().units.force()))
     } else {
@@ -227,7 +222,7 @@ fn scale(canvas: &mut Canvas<'_>, largest: f64) {
     let units = canvas.scene().units.force();
     let newtons = round_below_in(largest, units);
     let (length, words) = (canvas.scale * newtons, quantity(newtons, units));
-    if has_one_scale(canvas) {
+    if canvas.has_one_scale() {
         let symbol = vec![symbol(canvas, 0.0, length, ink)];
         canvas.explain(Key { rank: 12, words: format!("{words} on a block"), symbol, width: length });
     } else if canvas.options.keys {

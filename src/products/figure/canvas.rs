@@ -8,11 +8,12 @@ use std::rc::Rc;
 
 use super::design::{Key, Layer, Look, Mark, around, colour};
 use super::displacement::{Course, Displacement};
-use super::option::Options;
+use super::option::{ArrowScale, Options};
 use super::placing::{self, Label, Surroundings};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Motion, ThrustStates};
 use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
+use crate::pictures::drawing::style::ForceMarks;
 use crate::pictures::drawing::{Camera, Colour, Group, Item, PagePoint, PageRect, Path, Theme};
 
 /// If a frame has more blocks than this, shapes with the same paint are one path without tooltips. Thousands of
@@ -172,6 +173,11 @@ impl<'a> Canvas<'a> {
     /// Converts millimetres of the design to pixels.
     pub fn mm(&self, length: f64) -> f64 {
         self.look.mm(length)
+    }
+
+    /// True if all panels have the same scale of forces. In the look of the thesis, each panel has its own.
+    pub fn has_one_scale(&self) -> bool {
+        !self.look.is_strip || self.options.scale == ArrowScale::Strip || self.theme().forces != ForceMarks::Blocks
     }
 
     /// True if the frame has so many blocks that single marks have no tooltips.

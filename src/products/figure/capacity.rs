@@ -16,8 +16,8 @@ use super::design::{ArrowSize, Key, Layer, Mark, along, moved_edge, small_block}
 use super::displacement::{Course, Displacement};
 use super::fall::Fall;
 use super::option::Options;
+use super::panel::{Figure, Subject};
 use super::placing::Label;
-use super::sheet::{Figure, Subject};
 use super::stage;
 use super::unit::unit;
 use super::words::{quantity, round_below_in};

@@ -14,7 +14,7 @@ use super::description;
 use super::design::{Key, Layer, Look, Mark, small_block};
 use super::joint_forces::{JointForces, mark};
 use super::option::Options;
-use super::sheet::{Figure, View};
+use super::panel::{Figure, View};
 use super::words::{force, listed, quantity};
 use crate::geometry::Vector;
 use crate::mechanics::analysis::{Analysis, Verdict};

@@ -90,7 +90,7 @@ impl Fills {
                 (ends("100 %".into()), what)
             }
             FillScale::Largest(largest) => {
-                (ends(quantity(largest, self.units.force())), "weight or largest normal force of a block".into())
+                (ends(quantity(largest, self.units.force())), "weight or largest normal force".into())
             }
             FillScale::Stress(largest, thickness) => {
                 let thickness = quantity(thickness, self.units.length());

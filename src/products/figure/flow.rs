@@ -19,7 +19,7 @@ use super::canvas::Canvas;
 use super::description;
 use super::design::{Key, Layer, Look, Mark};
 use super::joint_forces;
-use super::sheet::{Figure, View};
+use super::panel::{Figure, View};
 use super::stage;
 use super::unit::unit;
 use super::words::{quantity, round_below_in};

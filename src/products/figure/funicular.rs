@@ -312,7 +312,7 @@ impl BlockForces<'_> {
         let given: Vec<&LineOfAction> = given.collect();
         let piece = |line: &LineOfAction, to: Point| {
             let segment = self.segment(line.origin, (line.entry, to), line.force)?;
-            Some(ThrustSegment { through: false, leaves: false, ..segment })
+            Some(ThrustSegment { through: false, leaves: segment.leaves && self.may_leave, ..segment })
         };
         if let [one, other] = given[..] {
             let [strong, weak] = if one.force.norm() < other.force.norm() { [other, one] } else { [one, other] };

@@ -6,13 +6,14 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::about::About;
+use super::arrow::round_above;
 use super::canvas::Canvas;
 use super::description::pair;
 use super::design::{ArrowSize, Key, Layer, Look, Mark, along};
 use super::gives::{self, Gives, How};
 use super::option::{Fill, ForceStyle, Normalisation, Options};
+use super::panel::{Figure, View};
 use super::placing::Label;
-use super::sheet::{Figure, View};
 use super::stage;
 use super::words::{force, quantity, round_below_in};
 use crate::geometry::{Point, Vector, quarter_turn};
@@ -249,30 +250,37 @@ fn label(canvas: &mut Canvas<'_>, one: &Drawn<'_>, rank: u8, most: f64) {
     canvas.label(Label { bold: true, fixed: under.then_some(below), ..Label::new(words, ink, anchors, rank) });
 }
 
-fn key_mark(canvas: &Canvas<'_>, newtons: f64, share: f64) -> (Vec<Path>, f64) {
+fn key_mark(canvas: &Canvas<'_>, newtons: f64, share: f64, both: bool) -> (Vec<Path>, f64) {
     let (look, theme) = (canvas.look, canvas.theme());
     let half = (canvas.scale * newtons).max(look.mm(TICK));
-    let outline = mark(look, PagePoint::new(half, 0.0), (1.0, 0.0), half, true);
-    (vec![Path::filled(outline, tint(theme, share)).cased(theme.page, look.mm(0.1))], 2.0 * half)
+    let before = if both { half } else { 0.0 };
+    let outline = mark(look, PagePoint::new(before, 0.0), (1.0, 0.0), half, both);
+    (vec![Path::filled(outline, tint(theme, share)).cased(theme.page, look.mm(0.1))], before + half)
 }
 
-/// Returns the entry with the scale: a mark of a round amount.
+/// Returns the entry with the scale: a mark of a round amount. A joint with the ground only has the half in the block.
 fn force_key(canvas: &Canvas<'_>, most: f64) -> Rc<Key> {
+    let bodies = || canvas.analysis.frames.iter().flat_map(|frame| &frame.contacts).map(|c| c.interface.bodies);
+    let on_ground = |bodies: [BodyId; 2]| bodies.iter().any(|body| matches!(body, BodyId::Ground(_)));
+    let (ground, blocks) = (bodies().any(on_ground), bodies().any(|bodies| !on_ground(bodies)));
     let units = canvas.scene().units.force();
     let share = if canvas.scale * most < canvas.mm(6.0) { 1.0 } else { 0.75 };
     let round = round_below_in(share * most, units);
-    let (symbol, width) = key_mark(canvas, round, round / most.max(f64::MIN_POSITIVE));
-    Rc::new(Key { rank: 20, words: format!("{}  force at a joint", quantity(round, units)), symbol, width })
+    let (symbol, width) = key_mark(canvas, round, round / most.max(f64::MIN_POSITIVE), blocks || !ground);
+    let what = match (ground, blocks) {
+        (true, false) => "from the ground",
+        (true, true) => "at a joint; one head at the ground",
+        (false, _) => "at a joint",
+    };
+    Rc::new(Key { rank: 20, words: format!("{} {what}", quantity(round, units)), symbol, width })
 }
 
 /// Returns the entry for ticks: the largest force that is drawn as a tick, rounded up to one digit.
 fn tick_key(canvas: &Canvas<'_>, most: f64, newtons: f64) -> Rc<Key> {
-    let (symbol, width) = key_mark(canvas, 0.0, 0.5 * newtons / most.max(f64::MIN_POSITIVE));
+    let (symbol, width) = key_mark(canvas, 0.0, 0.5 * newtons / most.max(f64::MIN_POSITIVE), true);
     let units = canvas.scene().units.force();
-    let step = libm::exp10(libm::floor(libm::log10(units.value_from_si(newtons).max(f64::MIN_POSITIVE))));
-    let size = newtons / units.value_from_si(newtons).max(f64::MIN_POSITIVE);
-    let rounded = libm::ceil(units.value_from_si(newtons) / step - 1e-9) * step * size;
-    Rc::new(Key { rank: 10, words: format!("up to {}", quantity(rounded, units)), symbol, width })
+    let words = format!("up to {}", quantity(units.size * round_above(units.value_from_si(newtons)), units));
+    Rc::new(Key { rank: 10, words, symbol, width })
 }
 
 /// Draws the weights of the blocks of a large picture as thin arrows from their centroids. Returns false if they would be
@@ -319,11 +327,19 @@ pub(crate) fn missing(canvas: &mut Canvas<'_>) {
         let head = (share * look.mm(sizes.1), look.mm(sizes.2).min(0.62 * length));
         ArrowSize { length, shaft: share * look.mm(sizes.0), head }
     };
-    // A small missing force never looks as large as a large one.
-    let largest = found.failures.iter().map(|failure| failure.force().norm()).fold(f64::MIN_POSITIVE, f64::max);
-    let scale = canvas.scale.max(look.mm(if large { 6.0 } else { 5.0 }) / largest);
-    let symbol = Path::filled(arrow(look.mm(4.4)).outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink);
-    let key = Rc::new(Key { rank: 50, words: "missing".to_owned(), symbol: vec![symbol], width: look.mm(4.4) });
+    // One scale for all panels: that of the other forces, unless the largest missing force would be too short. A small
+    // missing force then never looks as large as a large one.
+    let all = canvas.analysis.frames.iter().flat_map(|frame| &frame.failures);
+    let largest = all.map(|failure| failure.force().norm()).fold(0.0, f64::max);
+    let scale = if canvas.has_one_scale() { canvas.scale } else { 0.0 };
+    let scale = scale.max(look.mm(if large { 6.0 } else { 5.0 }) / largest.max(f64::MIN_POSITIVE));
+    let stated = round_below_in(largest.min(look.mm(10.0) / scale), scene.units.force());
+    let states_scale = largest > 0.0 && !canvas.options.printed();
+    let width = if states_scale { scale * stated } else { look.mm(4.4) };
+    let words =
+        if states_scale { format!("{} missing", quantity(stated, scene.units.force())) } else { "missing".into() };
+    let symbol = Path::filled(arrow(width).outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink);
+    let key = Rc::new(Key { rank: 50, words, symbol: vec![symbol], width });
     let mut order: Vec<&Failure> = found.failures.iter().collect();
     order.sort_by(|a, b| b.amount().total_cmp(&a.amount()));
     for (number, failure) in order.into_iter().enumerate() {

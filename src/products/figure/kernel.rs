@@ -9,7 +9,7 @@ use super::canvas::Canvas;
 use super::description;
 use super::design::{Key, Layer, Mark};
 use super::option::Options;
-use super::sheet::Figure;
+use super::panel::Figure;
 use super::stage;
 use super::unit::unit;
 use super::verdict;

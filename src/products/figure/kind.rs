@@ -12,11 +12,11 @@ use super::margin::CollapseMargin;
 use super::mechanism::Mechanism;
 use super::movement::MovedSupport;
 use super::option::{ArrowScale, Options};
+use super::panel::Figure;
 use super::placement::PlacementTolerance;
 use super::polygon::ForcePolygon;
 use super::removable::RemovableBlocks;
 use super::sensitivity::CornerEffects;
-use super::sheet::Figure;
 use super::structure::Structure;
 use super::thrust::ThrustLine;
 use super::utilisation::Utilisation;
@@ -31,7 +31,7 @@ use crate::pictures::drawing::style::ForceMarks;
 /// The largest number of blocks for which a figure of forces asks for all margins, and for the factor on the loads and
 /// the tilt. Figures of more blocks only ask for the factor on the loads. The numbers count blocks, not seconds, so the same scene has the same figure on every machine.
 #[cfg(any(feature = "cli", feature = "wasm"))]
-const MAX_MARGIN_BLOCKS: [usize; 2] = [60, 120];
+const MAX_MARGIN_BLOCKS: [usize; 2] = [60, 140];
 
 /// The kind of a figure: what its panels show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

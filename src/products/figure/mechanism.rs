@@ -20,7 +20,7 @@ use super::displacement::Course;
 use super::fall::{Fall, Joint};
 use super::gives;
 use super::option::Options;
-use super::sheet::Figure;
+use super::panel::Figure;
 use super::stage;
 use super::unit::unit;
 use super::words::quantity;

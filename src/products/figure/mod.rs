@@ -33,6 +33,8 @@ mod margin;
 mod mechanism;
 mod movement;
 mod option;
+mod page;
+mod panel;
 mod parallel_arrows;
 mod placement;
 mod removable;

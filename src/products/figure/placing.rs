@@ -22,6 +22,12 @@ const DIRECTIONS: u32 = 24;
 const LEADER_DISTANCE: f64 = 1.6;
 /// A shorter leader is not drawn, mm.
 const LEAST_LEADER: f64 = 1.4;
+/// A leader may run over the mark at its anchor for this length, mm: from the centre of the disc of a robot to its edge.
+const ALONG: f64 = 1.7;
+/// If the best position near the anchor costs more than this, positions farther away are tried too.
+const FAR_COST: f64 = 4.0;
+/// The cost of each mm of the edges of stones under a label.
+const EDGE_COST: f64 = 0.5;
 /// If fewer than this share of the blocks can have a name, none has one.
 const LEAST_NAMED: f64 = 0.7;
 
@@ -102,14 +108,14 @@ impl Surroundings {
                 if path.fill.is_some() {
                     obstacles.push(Obstacle(grown(hull(points), clear)));
                 } else {
-                    let lines = points.windows(2).map(|ends| Obstacle(grown(hull(ends.to_vec()), clear)));
-                    obstacles.extend(lines);
+                    let lines = lines(&path.outline).into_iter();
+                    obstacles.extend(lines.map(|ends| Obstacle(grown(hull(ends.to_vec()), clear))));
                 }
             }
         }
         let rings: Vec<Vec<PagePoint>> = marks
             .iter()
-            .filter(|mark| mark.layer == Layer::Stone && ["block", "displaced"].contains(&mark.class))
+            .filter(|mark| mark.layer == Layer::Stone && ["block", "displaced", "plan"].contains(&mark.class))
             .flat_map(|mark| mark.shapes.first())
             .flat_map(|path| rings(&path.outline))
             .collect();
@@ -141,12 +147,13 @@ impl Surroundings {
         !self.obstacles.intersecting(bounds(&corners)).any(|o| convex_meet(&o.0, &corners))
     }
 
-    /// Returns the number of obstacles on a leader, apart from those at its anchor.
-    fn crossed(&self, from: PagePoint, anchor: PagePoint, near: f64) -> usize {
+    /// Returns the number of obstacles on a leader. An obstacle at its anchor only counts if the leader runs along it
+    /// for more than `along` pixels.
+    fn crossed(&self, from: PagePoint, anchor: PagePoint, near: f64, along: f64) -> usize {
         let line = [from, anchor];
         let at = corners(grown_rect(PageRect { at: anchor, width: 0.0, height: 0.0 }, near));
         let crossed = self.obstacles.intersecting(bounds(&line)).filter(|o| convex_meet(&o.0, &line));
-        crossed.filter(|o| !convex_meet(&o.0, &at)).count()
+        crossed.filter(|o| !convex_meet(&o.0, &at) || chord(&o.0, line) > along).count()
     }
 
     /// Returns the length of the edges of stones in a rectangle, pixels.
@@ -269,8 +276,14 @@ fn search(label: &Label, size: (f64, f64), drawn: &Surroundings, placed: &[PageR
             return Some(Position { cost: 0.0, rect, leader: None });
         }
     }
-    let near = around_anchors(label, size, &DISTANCES, drawn, placed, look);
-    near.or_else(|| around_anchors(label, size, &FAR, drawn, placed, look))
+    let at = |distances: &[f64]| around_anchors(label, size, distances, drawn, placed, look);
+    let near = at(&DISTANCES);
+    // The amounts of loads stay together in their order.
+    if near.is_some_and(|near| near.cost <= FAR_COST || label.away.is_some()) {
+        return near;
+    }
+    let far = at(&FAR).filter(|far| near.is_none_or(|near| far.cost < near.cost));
+    far.or(near)
 }
 
 /// Returns the position of least cost at these distances from the anchors of a label, mm.
@@ -331,7 +344,7 @@ fn cost(
     let edges = per_mm(drawn.edge_length(rect));
     let inside = drawn.share_inside(rect);
     let near = drawn.covered(grown_rect(rect, look.mm(0.75)));
-    cost += 0.33 * edges + drawn.inside * inside + 0.5 * near.saturating_sub(1) as f64;
+    cost += EDGE_COST * edges + drawn.inside * inside + 0.5 * near.saturating_sub(1) as f64;
     if label.bold && look.large && inside > 0.99 && edges < 0.05 {
         cost -= 1.2;
     }
@@ -343,7 +356,7 @@ fn cost(
         if placed.iter().any(|other| crosses(&other)) {
             return None;
         }
-        cost += 0.8 + 2.0 * drawn.crossed(from, anchor, look.mm(0.35)) as f64;
+        cost += 0.8 + 2.0 * drawn.crossed(from, anchor, look.mm(0.35), look.mm(ALONG)) as f64;
         leader = Some(anchor);
     }
     let structure = drawn.structure;
@@ -380,7 +393,8 @@ fn name_place(
         })
         .collect();
     places.insert(0, (0.0, middle));
-    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // A rounding error must not decide between two positions at the same distance.
+    places.sort_by_key(|place| (place.0 / look.mm(0.05)).round() as i64);
     let fits = |rect: PageRect| {
         let space = grown_rect(rect, look.mm(0.55));
         drawn.edge_length(space) <= 0.0
@@ -434,6 +448,16 @@ fn rings(outline: &Outline) -> Vec<Vec<PagePoint>> {
     rings
 }
 
+/// Returns the straight lines of an outline, with those that close its parts.
+fn lines(outline: &Outline) -> Vec<[PagePoint; 2]> {
+    let is_closed = outline.segments.iter().any(|segment| matches!(segment, Segment::Close));
+    let of = |ring: &Vec<PagePoint>| {
+        let count = if is_closed && ring.len() > 2 { ring.len() } else { ring.len().saturating_sub(1) };
+        (0..count).map(|i| [ring[i], ring[(i + 1) % ring.len()]]).collect::<Vec<_>>()
+    };
+    rings(outline).iter().flat_map(of).collect()
+}
+
 fn contains(ring: &[PagePoint], p: PagePoint) -> bool {
     let mut inside = false;
     for i in 0..ring.len() {
@@ -463,6 +487,23 @@ fn hull(mut points: Vec<PagePoint>) -> Vec<PagePoint> {
     let mut hull = chain(&mut points.iter().copied());
     hull.extend(chain(&mut points.iter().rev().copied()));
     if hull.is_empty() { points.into_iter().take(1).collect() } else { hull }
+}
+
+/// Returns the length of the part of a line segment that lies in a convex shape, whose corners are in the order of
+/// [`hull`].
+fn chord(shape: &[PagePoint], [a, b]: [PagePoint; 2]) -> f64 {
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    for i in 0..shape.len() {
+        let (p, q) = (shape[i], shape[(i + 1) % shape.len()]);
+        let [from, to] = [a, b].map(|x| (q.x - p.x) * (x.y - p.y) - (q.y - p.y) * (x.x - p.x));
+        match (from < 0.0, to < 0.0) {
+            (true, true) => return 0.0,
+            (true, false) => low = low.max(from / (from - to)),
+            (false, true) => high = high.min(from / (from - to)),
+            (false, false) => {}
+        }
+    }
+    (high - low).max(0.0) * libm::hypot(b.x - a.x, b.y - a.y)
 }
 
 /// Returns a convex shape that contains every point within `by` pixels of a corner, measured along the axes.

@@ -148,11 +148,11 @@ pub(crate) fn blocks(canvas: &mut Canvas<'_>) {
         let inner = seams(&block.body, scene.lattice, &canvas.camera);
         let outline = canvas.camera.polygon(&block.body.polygon);
         let shapes = vec![
-            Path::stroked(inner, Stroke::new(ink, canvas.mm(0.3))),
             Path::stroked(outline, Stroke::new(ink, canvas.mm(0.45))),
+            Path::stroked(inner, Stroke::new(ink, canvas.mm(0.3))),
         ];
         let title = format!("Block {}, planned by robot {}", block.id, robot.id);
-        canvas.put(Mark::new(Layer::Stone, "plan", shapes).titled(title).keyed(&key));
+        canvas.put(Mark::new(Layer::Stone, "plan", shapes).titled(title).keyed(&key).avoided(canvas.mm(0.1)));
     }
 }
 
@@ -305,6 +305,13 @@ fn stone_length(canvas: &Canvas<'_>, [from, to]: [PagePoint; 2]) -> f64 {
 
 /// Returns the length of the part of the segment from `start` along `way` that lies inside the rings, metres.
 pub(crate) fn inside_length(rings: &[Vec<Point>], start: Point, way: Vector) -> f64 {
+    let parts = parts(rings, start, way).into_iter().filter(|part| part.1);
+    parts.map(|([from, to], _)| to - from).sum::<f64>() * way.norm()
+}
+
+/// Divides the segment from `start` along `way` where it crosses the rings. Returns each part with the shares of `way` at
+/// which it begins and ends, and whether it lies inside the rings.
+pub(crate) fn parts(rings: &[Vec<Point>], start: Point, way: Vector) -> Vec<([f64; 2], bool)> {
     let mut cuts = vec![0.0, 1.0];
     let mut inside = false;
     for ring in rings {
@@ -324,14 +331,8 @@ pub(crate) fn inside_length(rings: &[Vec<Point>], start: Point, way: Vector) -> 
         }
     }
     cuts.sort_by(f64::total_cmp);
-    let mut length = 0.0;
-    for pair in cuts.windows(2) {
-        if inside {
-            length += pair[1] - pair[0];
-        }
-        inside = !inside;
-    }
-    length * way.norm()
+    let part = |(number, ends): (usize, &[f64])| ([ends[0], ends[1]], inside != (number % 2 == 1));
+    cuts.windows(2).enumerate().map(part).collect()
 }
 
 /// Asks for the label with the amount of a mark. `anchors` are the points beside which it may stand, and the rank.

@@ -2,7 +2,7 @@
 
 use super::about::About;
 use super::canvas::Canvas;
-use super::sheet::Figure;
+use super::panel::Figure;
 use super::stage;
 
 /// The figure of a structure without its solution.

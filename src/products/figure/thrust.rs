@@ -13,7 +13,7 @@ mod leaving;
 use std::borrow::Cow;
 use std::rc::Rc;
 
-use leaving::{left_at, with_missing_forces};
+use leaving::{left_at, slips, with_missing_forces};
 
 use super::about::About;
 use super::bearing::bearings;
@@ -22,11 +22,11 @@ use super::description;
 use super::design::{Key, Layer, Mark};
 use super::funicular::{ForceOrigin, ThrustSegment, segments};
 use super::option::Options;
-use super::sheet::{Figure, Subject};
+use super::panel::{Figure, Subject};
 use super::stage;
 use super::unit::unit;
 use super::verdict;
-use super::words::{force, quantity};
+use super::words::{counted, force, listed, quantity};
 use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict};
 use crate::mechanics::scene::BodyId;
 use crate::mechanics::statics::interface::ContactKind;
@@ -79,20 +79,24 @@ impl Figure for ThrustLine {
         stage::ground(canvas);
         stage::blocks(canvas);
         limits(canvas, states);
-        let keys = Keys::new(canvas, segments.iter().any(|segment| segment.through));
+        let keys = Keys::new(canvas);
+        if !segments.is_empty() {
+            canvas.explain(Rc::clone(&keys.scale));
+        }
         lines(canvas, &found, &segments, &keys);
         dots(canvas, &found, &keys);
         stage::held(canvas);
         stage::loads(canvas);
         let has_fan = canvas.options.with_polygon && found.verdict == Verdict::Stable && fan::draw(canvas, &found);
         stage::names(canvas);
-        if canvas.options.with_polygon && !has_fan {
-            canvas.note(81, "no force polygon: no chain of blocks has a horizontal thrust");
-        }
         if states.central.is_some() {
             canvas.note(80, "other figures: forces of least sum");
         }
-        canvas.words = Some(words(canvas, &found));
+        let mut words = words(canvas, &found);
+        if canvas.options.with_polygon && !has_fan {
+            words.push("no force polygon: no chain of blocks has a horizontal thrust".to_owned());
+        }
+        canvas.words = Some(words);
     }
 }
 
@@ -121,17 +125,23 @@ fn words(canvas: &Canvas<'_>, shown: &FrameAnalysis) -> Vec<String> {
     let state = match found.verdict {
         Verdict::Undecided => return vec![format!("no line of thrust is proved; {why}")],
         Verdict::Unstable => {
-            return vec![match shown.contacts.iter().filter(|contact| left_at(contact).is_some()).count() {
-                0 => "the line of thrust needs the missing forces".into(),
-                1 => "the line of thrust leaves the stone at one joint".into(),
-                count => format!("the line of thrust leaves the stone at {count} joints"),
-            }];
+            let leaves = shown.contacts.iter().filter(|contact| left_at(contact).is_some()).count();
+            let slides = shown.contacts.iter().filter(|contact| slips(contact, found)).count();
+            let whats = [("leaves the stone", leaves), ("is too steep for friction", slides)];
+            let whats = whats.into_iter().filter(|what| what.1 > 0);
+            let whats: Vec<String> =
+                whats.map(|(what, count)| format!("{what} at {}", counted(count, "joint"))).collect();
+            // The panels of a strip only mark the joints.
+            return match whats.is_empty() {
+                _ if canvas.look.is_strip => Vec::new(),
+                true => vec!["the line of thrust needs the missing forces".into()],
+                false => vec![format!("the line of thrust {}", listed(&whats))],
+            };
         }
         Verdict::Stable if states.central.is_some() => return [thrusts(canvas, states), parts(why)].concat(),
-        // A panel that shows one of many lines says so, if the legend does not.
-        Verdict::Stable if !has_many_lines(canvas, canvas.number) => None,
-        Verdict::Stable if shows_central(canvas) => Some("the line shown belongs to the forces of least sum".into()),
-        Verdict::Stable if states.supports > 2 => Some("more than two supports: no single horizontal thrust".into()),
+        Verdict::Stable if has_many_lines(canvas, canvas.number) && states.supports > 2 => {
+            Some("more than two supports: no single horizontal thrust".into())
+        }
         Verdict::Stable => None,
     };
     state.into_iter().chain(parts(why)).collect()
@@ -161,11 +171,6 @@ fn thrusts(canvas: &Canvas<'_>, states: &ThrustStates) -> Vec<String> {
     }
 }
 
-/// True if a frame of the figure shows its most central line.
-fn shows_central(canvas: &Canvas<'_>) -> bool {
-    (0..canvas.analysis.frames.len()).any(|frame| states(canvas, frame).central.is_some())
-}
-
 /// True if the line of thrust of a frame that stands is one of many possible lines, because there are more unknown
 /// forces than equations of equilibrium.
 fn has_many_lines(canvas: &Canvas<'_>, frame: usize) -> bool {
@@ -190,39 +195,39 @@ struct Keys {
     /// The largest force of a joint or a robot in any panel, N, and the width of its line, pixels.
     largest: f64,
     widest: f64,
+    scale: Rc<Key>,
     line: Rc<Key>,
     carried: Rc<Key>,
     schematic: Rc<Key>,
     dot: Rc<Key>,
     leaves: Rc<Key>,
+    slips: Rc<Key>,
 }
 
 impl Keys {
-    /// `has_line` states whether the picture has a line along a line of action, whose entry explains the widths.
-    fn new(canvas: &Canvas<'_>, has_line: bool) -> Keys {
+    fn new(canvas: &Canvas<'_>) -> Keys {
         let (analysis, theme) = (canvas.analysis, canvas.theme());
         let mut largest: f64 = 0.0;
-        let (mut many, mut central, mut falls) = (false, false, false);
+        let (mut many, mut central) = (false, false);
         for (number, found) in analysis.frames.iter().enumerate() {
             let shown = shown(states(canvas, number), found);
             let contacts = shown.contacts.iter().map(|contact| contact.resultant.force);
             let forces = contacts.chain(shown.robots.iter().map(|robot| robot.force));
             largest = forces.map(|force| force.norm()).fold(largest, f64::max);
-            many |= has_many_lines(canvas, number);
-            central |= states(canvas, number).central.is_some();
-            falls |= found.verdict == Verdict::Unstable;
+            let is_central = states(canvas, number).central.is_some();
+            many |= has_many_lines(canvas, number) && !is_central;
+            central |= is_central;
         }
         let (width, least, most) = WIDEST;
         let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
         let widest = (width * unit).clamp(canvas.mm(least), canvas.mm(most));
-        let shows = format!("this width shows {}", quantity(largest, canvas.scene().units.force()));
-        let line = match () {
-            () if central => "most central line",
-            () if many => "line of thrust of the forces of least sum",
-            () => "line of thrust",
+        let shows = quantity(largest, canvas.scene().units.force());
+        let line = match (central, many) {
+            (true, true) => "most central line, or of the forces of least sum",
+            (true, false) => "most central line",
+            (false, true) => "line of thrust of the forces of least sum",
+            (false, false) => "line of thrust",
         };
-        let carried = if falls { "line of thrust with the missing forces" } else { "forces found" };
-        let schematic = if has_line { "schematic".to_owned() } else { format!("schematic; {shows}") };
         let (start, long) = (PagePoint::new(0.0, 0.0), canvas.mm(KEY_LENGTH));
         let stroked = |rank: u8, words: String, colour: Colour| {
             let line = Outline::line([start, start.moved(long, 0.0)]);
@@ -232,15 +237,23 @@ impl Keys {
             Rc::new(Key { rank, words: words.to_owned(), symbol: vec![symbol], width: 2.0 * radius })
         };
         let radius = canvas.mm(0.6);
-        let (dot, ring) = (dot(canvas, start.moved(radius, 0.0)), ring(canvas, start.moved(canvas.mm(0.9), 0.0)));
+        let dot = dot(canvas, start.moved(radius, 0.0));
+        let (half, stroke) = (canvas.mm(2.0), Stroke::new(theme.failure, canvas.mm(0.35)));
+        let out = Path::stroked(Outline::line([start, start.moved(2.0 * half, 0.0)]), stroke);
+        let leaves = vec![out, ring(canvas, start.moved(half, 0.0))];
+        let words = "outside the stone".to_owned();
+        let leaves = Rc::new(Key { rank: 15, words, symbol: leaves, width: 2.0 * half });
+        let steep = steep(canvas, start.moved(canvas.mm(0.7), 0.0));
         Keys {
             largest,
             widest,
-            line: stroked(10, format!("{line}; {shows}"), theme.motion),
-            carried: stroked(11, format!("{carried}; {shows}"), carried_colour(theme)),
-            schematic: stroked(16, schematic, schematic_colour(theme)),
+            scale: stroked(9, format!("{shows} at this width"), theme.ink),
+            line: stroked(10, line.to_owned(), theme.motion),
+            carried: stroked(11, "line with the missing forces".to_owned(), carried_colour(theme)),
+            schematic: stroked(16, "schematic: no line of action".to_owned(), schematic_colour(theme)),
             dot: round(14, "resultant", radius, dot),
-            leaves: round(15, "the line leaves the stone", canvas.mm(0.9), ring),
+            leaves,
+            slips: round(17, "too steep for friction", canvas.mm(0.7), steep),
         }
     }
 
@@ -254,22 +267,32 @@ impl Keys {
 }
 
 /// Draws the line of thrust: first its schematic parts, then the true lines of action on top of them. The line is red
-/// where it leaves the stone, and grey elsewhere in a frame that does not stand.
+/// where it runs outside its block, and grey elsewhere in a frame that does not stand.
 fn lines(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, segments: &[ThrustSegment], keys: &Keys) {
-    let (theme, stands) = (canvas.theme(), shown.verdict == Verdict::Stable);
+    let (scene, theme, stands) = (canvas.scene(), canvas.theme(), shown.verdict == Verdict::Stable);
     let mut order: Vec<&ThrustSegment> = segments.iter().collect();
     order.sort_by_key(|segment| (segment.through, segment.leaves));
     for segment in order {
         let (colour, key) = match () {
-            () if segment.leaves => (theme.failure, &keys.carried),
             () if !stands => (carried_colour(theme), &keys.carried),
             () if segment.through => (theme.motion, &keys.line),
             () => (schematic_colour(theme), &keys.schematic),
         };
-        let line = Outline::line([segment.from, segment.to].map(|p| canvas.place(p)));
-        let stroke = Stroke::new(colour, keys.width(canvas, segment.force.norm()));
+        let (start, way) = (segment.from, segment.to - segment.from);
+        let line = |canvas: &Canvas<'_>, [from, to]: [f64; 2], ink: Colour| {
+            let outline = Outline::line([start + way * from, start + way * to].map(|p| canvas.place(p)));
+            Path::stroked(outline, Stroke::new(ink, keys.width(canvas, segment.force.norm())))
+        };
+        let mut shapes = vec![line(canvas, [0.0, 1.0], colour)];
+        let mut key = key;
+        if segment.leaves {
+            let rings = scene.blocks[segment.on.0].body.polygon.rings();
+            let outside = stage::parts(rings, start, way).into_iter().filter(|part| !part.1);
+            shapes.extend(outside.map(|(ends, _)| line(canvas, ends, theme.failure)));
+            key = &keys.leaves;
+        }
         let class = if segment.through { "thrust" } else { "schematic" };
-        let mark = Mark::new(Layer::Force, class, vec![Path::stroked(line, stroke)]).keyed(key);
+        let mark = Mark::new(Layer::Force, class, shapes).keyed(key);
         canvas.put(mark.titled(title(canvas, shown, segment)).avoided(canvas.mm(0.1)));
     }
 }
@@ -309,6 +332,9 @@ fn dots(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, keys: &Keys) {
             let out = Path::stroked(out, Stroke::new(theme.failure, canvas.mm(0.35)));
             let title = format!("The line of thrust leaves the joint between {pair}");
             Mark::new(Layer::Missing, "leaves", vec![out, ring(canvas, at)]).titled(title).keyed(&keys.leaves)
+        } else if slips(contact, canvas.found()) {
+            let title = format!("The line of thrust is too steep for the friction between {pair}");
+            Mark::new(Layer::Missing, "slips", vec![steep(canvas, at)]).titled(title).keyed(&keys.slips)
         } else {
             let amount = quantity(contact.resultant.force.norm(), scene.units.force());
             let mark = Mark::new(Layer::Symbol, "resultant", vec![dot(canvas, at)]).keyed(&keys.dot);
@@ -322,6 +348,13 @@ fn dot(canvas: &Canvas<'_>, at: PagePoint) -> Path {
     let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
     let radius = (0.06 * unit).clamp(canvas.mm(0.2), canvas.mm(0.55));
     Path::filled(Outline::circle(at, radius), canvas.theme().ink).cased(canvas.theme().page, 0.3 * radius)
+}
+
+/// Draws the mark of a joint whose force needs more friction than there is: a red square.
+fn steep(canvas: &Canvas<'_>, at: PagePoint) -> Path {
+    let half = canvas.mm(0.6);
+    let corners = [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| at.moved(x, y));
+    Path::filled(Outline::ring(corners), canvas.theme().failure).cased(canvas.theme().page, canvas.mm(0.15))
 }
 
 fn ring(canvas: &Canvas<'_>, at: PagePoint) -> Path {

@@ -226,7 +226,7 @@ fn a_long_strip_is_split_into_pages_and_a_margin_has_a_direction() {
     let bench = Bench::new();
     let steps = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/steps30.json");
     fs::copy(steps, bench.path("steps.json")).expect("copied");
-    let ran = bench.run("render steps.json --theme thesis --pages -o steps.svg");
+    let ran = bench.run("render steps.json --theme thesis --columns 3 --pages -o steps.svg");
     assert_eq!(ran.code, 0, "{}", ran.err);
     let mut frames = 0;
     let mut pages = 0;

@@ -174,7 +174,7 @@ fn every_kind_of_figure_states_what_it_shows() {
     let bench = Bench::new();
     for (kind, falls, stands) in [
         ("mechanism", "block lintel turns about a corner on block left", "there is no mechanism"),
-        ("thrust", "the line of thrust leaves the stone", "this width shows"),
+        ("thrust", "outside the stone", "at this width"),
         ("kernel", "no forces balance the structure", "safe part of an interface"),
         ("utilisation", "stands at no value", "stands at any value"),
     ] {

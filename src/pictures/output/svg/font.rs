@@ -70,11 +70,12 @@ fn cut(face: Face, runs: &[&Run]) -> Result<Vec<u8>, String> {
 
     let mut font = FontBuilder::new();
     font.add_table(&table).map_err(|e| e.to_string())?;
-    for tag in [Tag::new(b"OS/2"), Tag::new(b"name")] {
-        if let Some(data) = whole.table_data(tag) {
-            font.add_raw(tag, data.as_bytes().to_vec());
-        }
+    let tag = Tag::new(b"OS/2");
+    if let Some(data) = whole.table_data(tag) {
+        font.add_raw(tag, data.as_bytes().to_vec());
     }
+    // A table `name` without names: a browser takes the name from the style sheet.
+    font.add_raw(Tag::new(b"name"), vec![0, 0, 0, 0, 0, 6]);
     if let Some(post) = whole.table_data(Tag::new(b"post")) {
         // Write the table `post` in version 3, which has no glyph names. The old names do not fit the new glyph
         // indices.

@@ -8,7 +8,7 @@
 
 use super::path::{self, LineOfAction, TruePath, curve, moved_inside};
 use crate::geometry::{Point, Polygon, Vector, quarter_turn};
-use crate::mechanics::analysis::{Failure, FrameAnalysis};
+use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis};
 use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
 use crate::products::figure::bearing::{self, bearings};
 
@@ -20,6 +20,8 @@ const ALONG_GRAVITY_TOL: f64 = 1e-6;
 const LEAST_MISSING: f64 = 0.1;
 /// Points whose distance is at most this fraction of the block's size coincide.
 const SAME_PLACE: f64 = 1e-6;
+/// At a foot, at most this fraction of the width of a strand lies outside the joint.
+const OUTSIDE_SHARE: f64 = 0.15;
 /// Distance from a missing force at which a point is tested to find the side on which the block lies. It is a fraction
 /// of the total width of the strands of this force.
 const SIDE_SHARE: f64 = 0.5;
@@ -89,7 +91,8 @@ pub(crate) fn strands(
     frame_analysis: &FrameAnalysis,
     metres_per_newton: f64,
 ) -> Vec<Strand> {
-    let acting = acting(scene, frame, frame_analysis);
+    let true_places = acting(scene, frame, frame_analysis, 0.0);
+    let acting = acting(scene, frame, frame_analysis, metres_per_newton);
     let mut all = Vec::new();
     for id in &frame.placed {
         let forces = &acting[id.0];
@@ -99,7 +102,9 @@ pub(crate) fn strands(
             down: scene.down(),
             metres_per_newton,
         };
-        match true_lines(scene, *id, forces) {
+        // A strand that was moved has no true lines of action.
+        let is_moved = forces.iter().zip(&true_places[id.0]).any(|(drawn, own)| drawn.at != own.at);
+        match true_lines(scene, *id, forces).filter(|_| !is_moved) {
             Some(exact) => all.extend(exact),
             None => all.extend(distribution.strands(forces)),
         }
@@ -108,8 +113,13 @@ pub(crate) fn strands(
 }
 
 /// Returns the forces on each block, indexed by block: weight, loads, forces of contacts and robots, and missing
-/// forces.
-fn acting(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<Vec<ForceOnBlock>> {
+/// forces. The force of a joint acts where its strand has space in the joint.
+fn acting(
+    scene: &Scene,
+    frame: &Frame,
+    frame_analysis: &FrameAnalysis,
+    metres_per_newton: f64,
+) -> Vec<Vec<ForceOnBlock>> {
     let mut acting: Vec<Vec<ForceOnBlock>> = vec![Vec::new(); scene.blocks.len()];
     let mut act = |body: BodyId, origin: Origin, at: Point, force: Vector| {
         if let BodyId::Block(block) = body {
@@ -118,7 +128,8 @@ fn acting(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<V
     };
     for (number, bearing) in bearings(scene, frame_analysis).iter().enumerate() {
         let contact = &frame_analysis.contacts[number];
-        let (at, force) = (contact.resultant.at, contact.resultant.force);
+        let force = contact.resultant.force;
+        let at = within_joint(contact, metres_per_newton * force.norm());
         if bearing.is_some() {
             for body in contact.interface.bodies {
                 let sign = if body == contact.resultant.on { 1.0 } else { -1.0 };
@@ -157,6 +168,18 @@ fn acting(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<V
         }
     }
     acting
+}
+
+/// Returns the point of a foot nearest to its resultant at which a strand of this width, metres, lies in the joint. If
+/// hardly anything of the strand lies outside, and at joints between blocks, it is the point of the resultant.
+fn within_joint(contact: &Contact, width: f64) -> Point {
+    let (interface, at) = (&contact.interface, contact.resultant.at);
+    let (middle, tangent) = (interface.middle(), interface.tangent());
+    let along = (at - middle).dot(&tangent);
+    let room = 0.5 * interface.length() - 0.5 * width;
+    let is_foot = interface.bodies.iter().any(|body| matches!(body, BodyId::Ground(_)));
+    let is_outside = along.abs() > room + OUTSIDE_SHARE * width && room > 0.0;
+    if is_foot && is_outside { middle + tangent * along.clamp(-room, room) } else { at }
 }
 
 /// Returns each body on which the missing force of a failure acts, with the force on this body in N. The list is empty

@@ -79,3 +79,9 @@ pub(super) fn left_at(contact: &Contact) -> Option<Point> {
     });
     nearer.filter(|_| beyond)
 }
+
+/// True if a joint lacks friction for its resultant, which acts inside the joint.
+pub(super) fn slips(contact: &Contact, found: &FrameAnalysis) -> bool {
+    let lacks = |failure: &Failure| matches!(failure, Failure::Friction { .. }) && acts_at(failure, contact);
+    left_at(contact).is_none() && found.failures.iter().any(lacks)
+}
