@@ -25,8 +25,10 @@ def add(total, w, factor=1):
         total[i] += factor * w[i]
 
 def edges(body):
-    """The edges of outline and holes, each with the body on its left."""
+    """The edges of outline and holes, each with the body on its left; none for a circle."""
     out = []
+    if "circle" in body:
+        return out
     for k, ring in enumerate([body["outline"]] + body.get("holes", [])):
         ring = [vec(p) for p in ring]
         pairs = list(zip(ring, ring[1:] + ring[:1]))
@@ -36,8 +38,8 @@ def edges(body):
 
 def load(body, index, frame):
     """Weight at the centroid, listed loads times the load factor, and the further load, as one wrench."""
-    if body.get("centre"):
-        centre = vec(body["centre"])
+    if body.get("centre") or "circle" in body:
+        centre = vec(body.get("centre") or body["circle"]["centre"])
     else:
         parts = [(cross(p, q), p[0] + q[0], p[1] + q[1]) for p, q in edges(body)]
         area = 3 * sum(a for a, _, _ in parts)
@@ -161,9 +163,16 @@ def places(file, frame, edges_of, farthest):
     for k, c in enumerate(frame["contacts"]):
         n, p, faces, between = axes(c)[0], vec(c["points"][0]), False, len(c["points"]) == 1
         for body, sign in zip(c["bodies"], (1, -1)):
-            least = max(min(distance2(vec(q), a, b) for a, b in edges_of[body]) for q in c["points"])
-            farthest[0] = max(farthest[0], least)
-            if least > near:
+            if circle := bodies[body].get("circle"):
+                r, d, inner = F(circle["radius"]), F(file["distance"]), sub(vec(circle["centre"]), p)
+                off, along = dot(inner, inner), sign * dot(n, inner)
+                at = max(r - d, 0) ** 2 <= off <= (r + d) ** 2 and len(c["points"]) == 1
+                farthest[0] = max(farthest[0], F(abs(math.sqrt(off) - circle["radius"])) ** 2)
+                faces = faces or (along > 0 and cross(n, inner) ** 2 <= (TAN_OF_ANGLE * along) ** 2)
+            else:
+                least = max(min(distance2(vec(q), a, b) for a, b in edges_of[body]) for q in c["points"])
+                farthest[0], at = max(farthest[0], least), least <= near
+            if not at:
                 yield f"contact {k}: a point is not at {bodies[body]['id']}"
             for a, b in edges_of[body]:
                 along, across = sign * cross(sub(b, a), n), dot(sub(b, a), n)
@@ -180,13 +189,41 @@ def places(file, frame, edges_of, farthest):
             if two not in ground and touch(file, frame, one, two, edges_of):
                 yield f"{bodies[one]['id']} and {bodies[two]['id']} touch without a contact"
 
+def span(body, x):
+    """The least and the greatest coordinate of a body."""
+    if circle := body.get("circle"):
+        return circle["centre"][x] - circle["radius"], circle["centre"][x] + circle["radius"]
+    return min(p[x] for p in body["outline"]), max(p[x] for p in body["outline"])
+
+def circles_touch(file, rounds, edges_of, own):
+    """Whether a circle comes close to another circle or to an edge where there is no contact."""
+    d, shortest = F(file["distance"]), F(file["shortest"])
+    if all(rounds):
+        apart = sub(vec(rounds[0]["centre"]), vec(rounds[1]["centre"]))
+        return not own and dot(apart, apart) <= (F(rounds[0]["radius"]) + F(rounds[1]["radius"]) + d) ** 2
+    circle, sides = (rounds[0], edges_of[1]) if rounds[0] else (rounds[1], edges_of[0])
+    centre, r = vec(circle["centre"]), F(circle["radius"])
+    for a, b in sides:
+        along = sub(b, a)
+        share = dot(along, sub(centre, a)) / dot(along, along)
+        if distance2(centre, a, b) > (r + d) ** 2 or (not 0 <= share <= 1 and not file["corners_carry"]):
+            continue
+        share = min(max(share, 0), 1)
+        foot = a[0] + share * along[0], a[1] + share * along[1]
+        if all(dot(sub(foot, vec(s[0])), sub(foot, vec(s[0]))) > (2 * d + shortest) ** 2 + 4 * r * d for s in own):
+            return True
+    return False
+
 def touch(file, frame, one, two, edges_of):
     """Whether two bodies come close where they have no contact."""
-    box = [[(min(p[x] for p, _ in edges_of[k]), max(p[x] for p, _ in edges_of[k])) for x in (0, 1)] for k in (one, two)]
+    box = [[span(file["bodies"][k], x) for x in (0, 1)] for k in (one, two)]
     if any(box[i][x][0] - 2 * file["distance"] > box[1 - i][x][1] for i in (0, 1) for x in (0, 1)):
         return False
     near, covered = F(file["distance"]) ** 2, (2 * F(file["distance"]) + F(file["shortest"])) ** 2
     own = [c.get("ends") or c["points"] for c in frame["contacts"] if sorted(c["bodies"]) == sorted((one, two))]
+    rounds = [file["bodies"][k].get("circle") for k in (one, two)]
+    if any(rounds):
+        return circles_touch(file, rounds, [edges_of[one], edges_of[two]], own)
     for (a, b), (c, d) in itertools.product(edges_of[one], edges_of[two]):
         close = [p for p, q, r in ((a, c, d), (b, c, d), (c, a, b), (d, a, b)) if distance2(p, q, r) <= near]
         bare = [p for p in close if all(distance2(p, vec(s[0]), vec(s[-1])) > covered for s in own)]
@@ -203,7 +240,7 @@ def form(file, frame):
     blocks = [k for k, body in enumerate(bodies) if not body["ground"]]
     if file["drystone_certificate"] != 1 or min(file["distance"], file["shortest"]) < 0:
         yield "the version or a distance is wrong"
-    if any(sum(cross(p, q) for p, q in edges(body)) == 0 for body in bodies):
+    if any(body["circle"]["radius"] <= 0 if "circle" in body else sum(cross(p, q) for p, q in edges(body)) == 0 for body in bodies):
         yield "an outline has no area"
     if any(body["weight"] < 0 for body in bodies) or not set(placed) <= set(blocks) or len(set(placed)) != len(placed):
         yield "a weight is negative, or a placed body is no block"

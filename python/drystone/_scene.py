@@ -103,6 +103,7 @@ class Scene:
         id: str | None = None,
         holes: Iterable[Outline] | None = None,
         cells: Sequence[Sequence[Any]] | None = None,
+        circle: Mapping[str, Any] | None = None,
         shape: str | None = None,
         at: Point | None = None,
         angle: float | None = None,
@@ -121,6 +122,7 @@ class Scene:
         *,
         holes: Iterable[Outline] | None = None,
         cells: Sequence[Sequence[Any]] | None = None,
+        circle: Mapping[str, Any] | None = None,
         shape: str | None = None,
         at: Point | None = None,
         angle: float | None = None,
@@ -135,7 +137,8 @@ class Scene:
     ) -> Scene:
         """Adds a rigid block.
 
-        One of ``polygon``, ``cells`` and ``shape`` gives its outline. ``centre`` replaces an outline, or is the centre of
+        One of ``polygon``, ``cells``, ``circle`` and ``shape`` gives its outline. A circle is a dict with ``centre`` and
+        ``radius``. ``centre`` replaces an outline, or is the centre of
         mass beside one. ``placement`` multiplies its errors when the placement tolerance is computed.
         """
         keys = _without(locals(), "self", "id", "polygon", "holes")
@@ -167,9 +170,10 @@ class Scene:
         *,
         holes: Iterable[Outline] | None = None,
         cells: Sequence[Sequence[Any]] | None = None,
+        circle: Mapping[str, Any] | None = None,
     ) -> Scene:
         """Adds a shape. The argument ``shape`` of blocks and of the ground refers to it by its name."""
-        return self._name("shapes", name, _geometry.body(polygon, holes, {"cells": cells}))
+        return self._name("shapes", name, _geometry.body(polygon, holes, {"cells": cells, "circle": circle}))
 
     def material(
         self,

@@ -7,6 +7,7 @@
 mod lattice;
 mod box_index;
 mod bounds;
+mod circle;
 mod crossing;
 mod edge;
 mod hull;
@@ -19,6 +20,7 @@ mod zonotope;
 
 pub use bounds::Bounds;
 pub(crate) use box_index::{Aabb, BoxIndex};
+pub use circle::Circle;
 pub use compensated_sum::CompensatedSum;
 pub use edge::Edge;
 pub(crate) use hull::convex_hull;

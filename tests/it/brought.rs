@@ -324,3 +324,42 @@ fn damaged_files_are_reported_and_never_panic() {
         }
     }
 }
+
+#[test]
+fn circles_of_drawings_are_circles_whatever_the_flattening() {
+    let svg = |body: &str| {
+        format!(
+            r##"<svg xmlns="http://www.w3.org/2000/svg" width="400mm" height="300mm" viewBox="0 0 400 300">
+            <rect id="ground" y="200" width="400" height="100"/>{body}</svg>"##
+        )
+    };
+    let bodies = [
+        r#"<circle cx="200" cy="150" r="50"/>"#,
+        r#"<ellipse cx="100" cy="75" rx="25" ry="25" transform="scale(2)"/>"#,
+        r#"<path d="M150 150A50 50 0 0 1 250 150A50 50 0 0 1 150 150Z"/>"#,
+    ];
+    for body in bodies {
+        for flatten in [1e-4, 4e-4, 0.01] {
+            let found = read(&svg(body), Format::Svg, &Options::default().flatten(flatten));
+            let circle = found.scene.blocks[0].circle.as_ref().expect("a circle");
+            assert!((circle.radius - 0.05).abs() < 1e-12, "{body}");
+            assert_eq!(verdict(&found), Verdict::Stable, "{body}");
+            assert!(!has_note(&found, "chords"));
+        }
+    }
+    // Three logs drawn by hand, some tenths of a millimetre apart or over each other.
+    let pile = r#"<circle cx="150" cy="150.1" r="50"/><circle cx="250.1" cy="149.9" r="50"/><circle cx="200" cy="63.5" r="50"/>"#;
+    assert_eq!(verdict(&read(&svg(pile), Format::Svg, &Options::default())), Verdict::Stable);
+}
+
+#[test]
+fn circles_of_cad_files_and_of_two_bulges_have_their_area() {
+    let dxf = |entity: &str| format!("0\nSECTION\n2\nENTITIES\n{entity}0\nENDSEC\n0\nEOF\n");
+    let circle = dxf("0\nCIRCLE\n8\nblocks\n10\n3\n20\n4\n40\n5\n");
+    let bulges = dxf("0\nLWPOLYLINE\n8\nblocks\n90\n2\n70\n1\n10\n-2\n20\n4\n42\n1\n10\n8\n20\n4\n42\n1\n");
+    for text in [circle, bulges] {
+        let found = read(&text, Format::Dxf, &Options::default());
+        assert!((area(&found, 0) - 25.0 * std::f64::consts::PI).abs() < 1e-9);
+        assert_eq!(found.scene.blocks[0].circle.as_ref().expect("a circle").centre, [3.0, 4.0]);
+    }
+}

@@ -168,6 +168,38 @@ fn random_hard_scenes_are_exact_for_both_checkers() {
     }
 }
 
+/// A log in a groove, which stands, and three logs that slide apart.
+#[test]
+fn certificates_of_circles_are_exact_and_need_every_contact() {
+    let groove = r#"{ "drystone": 1, "ground": [{ "polygon": [[-2, 2], [0, 0], [2, 2], [2, -1], [-2, -1]] }],
+        "blocks": [{ "circle": { "centre": [0, 1.4142135623730951], "radius": 1 } }] }"#;
+    let pile = r#"{ "drystone": 1, "friction": 0.26, "ground": [{ "polygon": [[-9, 0], [9, 0], [9, -1], [-9, -1]] }],
+        "blocks": [{ "circle": { "centre": [-1, 1], "radius": 1 } }, { "circle": { "centre": [1, 1], "radius": 1 } },
+                   { "circle": { "centre": [0, 2.732050807568877], "radius": 1 } }] }"#;
+    let mut texts = Vec::new();
+    for (text, stands) in [(groove, true), (pile, false)] {
+        let certificate = certificate(&Scene::from_json(text).expect("a scene"), &Options::default());
+        let checked = certificate.check().expect("a structure");
+        assert!(proved(&checked).iter().all(|proved| *proved), "{checked:?}");
+        texts.push(certificate.to_json());
+        // A motion proves nothing without the contact of the two lower logs, of a log with the ground, or at a wrong place.
+        for left_out in (0..certificate.frames[0].contacts.len()).filter(|_| !stands) {
+            let mut wrong = certificate.clone();
+            wrong.frames[0].contacts.remove(left_out);
+            assert!(!proved(&wrong.check().expect("a structure"))[0]);
+            texts.push(wrong.to_json());
+        }
+        let mut wrong = certificate.clone();
+        wrong.frames[0].contacts[0].points[0][0] += 1e-3;
+        assert!(!proved(&wrong.check().expect("a structure"))[0]);
+        texts.push(wrong.to_json());
+    }
+    let Some(pages) = by_python(&texts) else { return };
+    let by_python: Vec<bool> = pages.iter().map(|page| proved_by_python(page)[0]).collect();
+    assert_eq!(by_python.iter().map(|exact| usize::from(*exact)).sum::<usize>(), 2, "{by_python:?}");
+    assert!(by_python[0] && by_python[2]);
+}
+
 #[test]
 fn both_sides_of_margins_and_capacities_are_exact() {
     let robot = Scene::from_json(ROBOT).expect("a scene");

@@ -57,6 +57,7 @@ mod mutant;
 mod program;
 mod random;
 mod removable;
+mod round;
 mod report;
 mod scenes;
 mod sensitivity;

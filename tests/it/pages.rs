@@ -104,6 +104,7 @@ fn title(name: &str) -> &str {
         "ShapeEntry" => "A shape",
         "GroundEntry" => "A part of the ground",
         "BlockEntry" => "A block",
+        "CircleEntry" => "A circle",
         "RobotEntry" => "A robot",
         "LimitsEntry" => "Limits",
         "LoadEntry" => "A load",
@@ -185,6 +186,7 @@ fn the_format_page_describes_every_key_of_a_scene_file() {
     let order = [
         "BlockEntry",
         "GroundEntry",
+        "CircleEntry",
         "ShapeEntry",
         "MaterialEntry",
         "FrictionPairEntry",

@@ -136,9 +136,12 @@ impl Certificate {
         need(self.drystone_certificate == 1, &|| format!("version {} is not 1", self.drystone_certificate));
         need(self.distance >= 0.0 && self.shortest >= 0.0, &|| "a distance is negative".to_owned());
         for body in &self.bodies {
-            let rings = std::iter::once(&body.outline).chain(&body.holes);
-            need(rings.clone().all(|ring| ring.len() >= 3), &|| {
+            let mut rings = std::iter::once(&body.outline).chain(&body.holes);
+            need(body.circle.is_some() || rings.all(|ring| ring.len() >= 3), &|| {
                 format!("an outline of {} has fewer than 3 corners", body.id)
+            });
+            need(body.circle.is_none_or(|circle| circle.radius > 0.0), &|| {
+                format!("the radius of {} is not more than 0", body.id)
             });
             need(centroid(body).is_some(), &|| format!("the outline of {} has no area", body.id));
             need(body.weight >= 0.0, &|| format!("the weight of {} is negative", body.id));

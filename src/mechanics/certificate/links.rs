@@ -79,6 +79,9 @@ impl Link {
 
 /// The centroid of an outline without its holes, whatever the direction of the rings; `None` if it has no area.
 pub(super) fn centroid(body: &BodyForm) -> Option<Vector> {
+    if let Some(circle) = body.circle {
+        return Some(Vector::new(circle.centre));
+    }
     let (mut area, mut x, mut y) = (zero(), zero(), zero());
     for (ring, corners) in std::iter::once(&body.outline).chain(&body.holes).enumerate() {
         let corners: Vec<Vector> = corners.iter().map(|p| Vector::new(*p)).collect();

@@ -11,7 +11,7 @@ use std::cell::OnceCell;
 use super::fall::{NEGLIGIBLE, motion_of_all, opening_motion, with_motion};
 use super::limits::Limits;
 use super::stand::{order, slack_forces};
-use super::{BodyForm, Certificate, ContactForm, ForcesForm, FrameForm, GripForm, LoadForm, Pair};
+use super::{BodyForm, Certificate, CircleForm, ContactForm, ForcesForm, FrameForm, GripForm, LoadForm, Pair};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict, mechanism_of};
 use crate::mechanics::proof::Motion;
@@ -187,7 +187,11 @@ fn bodies(scene: &Scene) -> Vec<BodyForm> {
     let form = |body: BodyId, id: &str| BodyForm {
         id: id.to_owned(),
         ground: matches!(body, BodyId::Ground(_)),
-        outline: ring(scene.body(body).polygon.outline()),
+        outline: match scene.body(body).circle {
+            Some(_) => Vec::new(),
+            None => ring(scene.body(body).polygon.outline()),
+        },
+        circle: scene.body(body).circle.map(|c| CircleForm { centre: pair(c.centre), radius: c.radius }),
         holes: scene.body(body).polygon.holes().iter().map(|hole| ring(hole)).collect(),
         weight: 0.0,
         centre: None,
@@ -197,8 +201,7 @@ fn bodies(scene: &Scene) -> Vec<BodyForm> {
     let blocks = scene.blocks().iter().enumerate().map(|(k, block)| {
         let id = crate::mechanics::scene::BlockId(k);
         let loads = scene.loads().iter().filter(|load| load.block == id);
-        let centre =
-            (block.body.is_schematic || block.centroid != block.body.polygon.centroid()).then(|| pair(block.centroid));
+        let centre = (block.body.is_schematic || block.centroid != block.body.centroid()).then(|| pair(block.centroid));
         BodyForm {
             weight: block.weight,
             centre,
@@ -215,7 +218,7 @@ fn bodies(scene: &Scene) -> Vec<BodyForm> {
 /// rounding of coordinates.
 fn distance(scene: &Scene, interfaces: &Interfaces) -> f64 {
     let ends = interfaces.all.iter().flat_map(|i| i.ends.iter().flat_map(|at| i.bodies.map(|body| (body, *at))));
-    let farthest = ends.map(|(body, at)| scene.body(body).polygon.distance(at).abs()).fold(0.0, f64::max);
+    let farthest = ends.map(|(body, at)| scene.body(body).distance(at).abs()).fold(0.0, f64::max);
     let bounds = scene.blocks().iter().map(|block| block.body.polygon.bounds());
     let extent = bounds.map(|b| b.min.coords.norm().max(b.max.coords.norm())).fold(0.0, f64::max);
     (farthest * (1.0 + 1e-9)).max(extent * 1e-12)

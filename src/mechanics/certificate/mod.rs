@@ -69,8 +69,11 @@ pub struct BodyForm {
     pub id: String,
     /// Whether the body is a part of the ground, which never moves and bears any load.
     pub ground: bool,
-    /// The corners of the outline, metres.
+    /// The corners of the outline, metres; empty for a circle.
     pub outline: Vec<Pair>,
+    /// The circle, if the body is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub circle: Option<CircleForm>,
     /// The corners of each hole, metres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
@@ -83,6 +86,16 @@ pub struct BodyForm {
     /// The loads that act besides the weight.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadForm>,
+}
+
+/// A circle, in metres.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CircleForm {
+    /// The centre.
+    pub centre: Pair,
+    /// The radius, more than 0.
+    pub radius: f64,
 }
 
 /// A load on a body.

@@ -3,7 +3,7 @@
 
 use super::fraction::{Rational, Vector, exact, float, square, square_length, zero};
 use super::links::normal_of;
-use super::{BodyForm, Certificate, ContactForm, FrameForm};
+use super::{BodyForm, Certificate, CircleForm, ContactForm, FrameForm};
 
 impl Certificate {
     /// Checks that the contact points of a frame lie at both outlines and that every pair of bodies that touch has its
@@ -20,10 +20,16 @@ impl Certificate {
                 let edges = edges(&self.bodies[*body]);
                 for at in &contact.points {
                     let at = Vector::new(*at);
-                    let nearest = edges.iter().map(|[a, b]| distance_squared(&at, a, b)).min();
-                    let Some(nearest) = nearest else { continue };
-                    *farthest = farthest.max(float(&nearest).sqrt());
-                    if nearest > allowed {
+                    let (away, is_near) = match self.bodies[*body].circle {
+                        Some(circle) => self.at_circle(&at, circle),
+                        None => {
+                            let nearest = edges.iter().map(|[a, b]| distance_squared(&at, a, b)).min();
+                            let Some(nearest) = nearest else { continue };
+                            (float(&nearest).sqrt(), nearest <= allowed)
+                        }
+                    };
+                    *farthest = farthest.max(away);
+                    if !is_near {
                         faults.push(format!("{}: a point does not lie at both outlines", self.names(contact)));
                     }
                 }
@@ -48,7 +54,14 @@ impl Certificate {
         let middle = Vector::new(contact.points[0]);
         let is_corner = contact.points.len() == 1
             && edges_at.iter().all(|(edges, sign)| separates(&normal, edges, *sign, &middle, &allowed));
+        let faces_circle = contact.bodies.iter().zip([1, -1]).any(|(body, sign)| {
+            let Some(circle) = self.bodies[*body].circle else { return false };
+            let inner = Vector::new(circle.centre).minus(&middle);
+            let along = normal.dot(&inner) * Rational::from(sign);
+            along > zero() && square(&normal.cross(&inner)) <= exact(ANGLE_SQUARED) * square(&along)
+        });
         is_corner
+            || faces_circle
             || edges_at.iter().any(|(edges, sign)| {
                 edges.iter().any(|[a, b]| {
                     let inner = b.minus(a).turned();
@@ -85,6 +98,12 @@ impl Certificate {
                 let spans: Vec<[Vector; 2]> = contacts.map(span).collect();
                 let is_covered = |at: &Vector| spans.iter().any(|[a, b]| distance_squared(at, a, b) <= covered);
                 let edges = bodies.map(edges);
+                if bodies.iter().any(|body| body.circle.is_some()) {
+                    if self.circles_touch(bodies, &edges, &spans) {
+                        faults.push(format!("{} and {} touch without a contact", bodies[0].id, bodies[1].id));
+                    }
+                    continue;
+                }
                 for [a, b] in &edges[0] {
                     for [c, d] in &edges[1] {
                         let near = [(a, c, d), (b, c, d), (c, a, b), (d, a, b)];
@@ -103,6 +122,44 @@ impl Certificate {
         }
         faults.dedup();
         faults
+    }
+
+    /// Returns the distance of a point from a circle in metres, rounded, and whether it is at most the stated distance.
+    fn at_circle(&self, at: &Vector, circle: CircleForm) -> (f64, bool) {
+        let (radius, distance) = (exact(circle.radius), exact(self.distance));
+        let away = square_length(&at.minus(&Vector::new(circle.centre)));
+        let is_near =
+            away <= square(&(&radius + &distance)) && (radius < distance || away >= square(&(&radius - &distance)));
+        ((float(&away).sqrt() - circle.radius).abs(), is_near)
+    }
+
+    /// True if two bodies, of which at least one is a circle, touch where they have no contact.
+    ///
+    /// The foot of a circle on an edge must lie at a contact. Beside a contact, an edge leaves the circle slowly: at a
+    /// chord whose square is 4 r d, the gap is twice the distance d.
+    fn circles_touch(&self, bodies: [&BodyForm; 2], edges: &[Vec<[Vector; 2]>; 2], spans: &[[Vector; 2]]) -> bool {
+        let distance = exact(self.distance);
+        if let [Some(one), Some(other)] = bodies.map(|body| body.circle) {
+            let away = square_length(&Vector::new(one.centre).minus(&Vector::new(other.centre)));
+            return spans.is_empty() && away <= square(&(exact(one.radius) + exact(other.radius) + distance));
+        }
+        (0..2).any(|k| {
+            let Some(circle) = bodies[k].circle else { return false };
+            let (centre, radius) = (Vector::new(circle.centre), exact(circle.radius));
+            let reach = square(&(&radius + &distance));
+            let covered = square(&exact(2.0 * self.distance + self.shortest)) + Rational::from(4) * &radius * &distance;
+            edges[1 - k].iter().any(|[a, b]| {
+                let along = b.minus(a);
+                let (length, place) = (square_length(&along), along.dot(&centre.minus(a)));
+                let is_end = place < zero() || place > length;
+                if (is_end && !self.corners_carry) || distance_squared(&centre, a, b) > reach {
+                    return false;
+                }
+                let share = if place < zero() { zero() } else { place.min(length.clone()) } / length;
+                let foot = Vector { x: &a.x + along.x * &share, y: &a.y + along.y * &share };
+                spans.iter().all(|[p, _]| square_length(&foot.minus(p)) > covered)
+            })
+        })
     }
 }
 
@@ -164,7 +221,8 @@ fn span(contact: &ContactForm) -> [Vector; 2] {
 fn boxes_meet(bodies: [&BodyForm; 2], distance: f64) -> bool {
     [0, 1].iter().all(|axis| {
         let [one, other] = bodies.map(|body| {
-            let places = body.outline.iter().map(|p| p[*axis]);
+            let ends = body.circle.map(|circle| [-1.0, 1.0].map(|sign| circle.centre[*axis] + sign * circle.radius));
+            let places = body.outline.iter().map(|p| p[*axis]).chain(ends.into_iter().flatten());
             places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
         });
         one[0] - 2.0 * distance <= other[1] && other[0] - 2.0 * distance <= one[1]

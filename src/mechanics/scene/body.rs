@@ -1,7 +1,7 @@
 //! The parts of a scene: blocks, parts of the ground, robots, loads, listed contacts and materials.
 
 use super::format::Expectation;
-use crate::geometry::{Cell, Point, Polygon, Vector};
+use crate::geometry::{Cell, Circle, Point, Polygon, Vector};
 
 /// The index of a block in the list of blocks of the scene, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -28,8 +28,10 @@ pub struct Rgb(pub [u8; 3]);
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Body {
-    /// Outline and holes in the coordinates of the scene, metres.
+    /// Outline and holes in the coordinates of the scene, metres. For a circle, a fine polygon with the same area.
     pub polygon: Polygon,
+    /// The circle, if the body is round: its weight, contacts and overlaps come from the circle, not from the polygon.
+    pub circle: Option<Circle>,
     /// The lattice cells, if the body consists of cells.
     pub cells: Option<Vec<Cell>>,
     /// The index of its material in the list of materials of the scene; `None` if it has no material.
@@ -46,6 +48,23 @@ pub struct Body {
     /// Whether the file gives no outline. The outline is then only a symbol for figures: for a block, the convex hull
     /// of its contacts and of a small disc around its centre.
     pub is_schematic: bool,
+}
+
+impl Body {
+    /// Returns the area in square metres.
+    pub fn area(&self) -> f64 {
+        self.circle.map_or_else(|| self.polygon.area(), Circle::area)
+    }
+
+    /// Returns the centroid of the area.
+    pub fn centroid(&self) -> Point {
+        self.circle.map_or_else(|| self.polygon.centroid(), |circle| circle.centre)
+    }
+
+    /// Returns the distance of a point from the body in metres; at most 0 for a point inside.
+    pub(crate) fn distance(&self, point: Point) -> f64 {
+        self.circle.map_or_else(|| self.polygon.distance(point), |circle| circle.distance(point))
+    }
 }
 
 /// A part of the ground. It supports any load and never moves.
@@ -66,7 +85,7 @@ pub struct Block {
     pub id: String,
     /// Its shape, position and surface.
     pub body: Body,
-    /// The point at which the weight acts, metres: the centroid of the polygon, or the centre that the file gives.
+    /// The point at which the weight acts, metres: the centroid of the body, or the centre that the file gives.
     pub centroid: Point,
     /// Whether the file gives the centre of mass, so that it need not be the centroid of the polygon.
     pub(crate) has_own_centre: bool,

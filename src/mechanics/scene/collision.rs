@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::finding::Findings;
 use super::problem;
 use super::{BlockId, Body, BodyId, Frame, size};
-use crate::geometry::{Aabb, BoxIndex, Cell, ConvexPieces, Lattice, Point, Polygon, Vector, overlap};
+use crate::geometry::{Aabb, BoxIndex, Cell, ConvexPieces, Lattice, Overlap, Point, Polygon, Vector, overlap};
 use crate::read::Trail;
 
 /// The largest number of overlaps that are reported. If a scene has more, they most likely have one cause.
@@ -216,7 +216,7 @@ fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
             let pair = [bodies[j].0, *id];
             let gap = bodies[i].1.gap.min(bodies[j].1.gap);
             if let Some(frame) = presence.together(pair[0], pair[1])
-                && let Some(o) = overlap(&pieces[i], &pieces[j], gap)
+                && let Some(o) = common([bodies[i].1, bodies[j].1], [&pieces[i], &pieces[j]], gap)
             {
                 let blocks = [bodies[i], bodies[j]].into_iter();
                 let sizes = blocks.filter(|b| matches!(b.0, BodyId::Block(_))).map(|b| size(&b.1.polygon));
@@ -235,6 +235,19 @@ fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
         }
     }
     found
+}
+
+/// Returns the common area of two bodies if one penetrates the other by more than `gap`. The depth is exact for circles
+/// too; their area and its centroid come from the polygons that stand for them.
+fn common([a, b]: [&Body; 2], [one, other]: [&ConvexPieces<'_>; 2], gap: f64) -> Option<Overlap> {
+    let depth = match (a.circle, b.circle) {
+        (None, None) => return overlap(one, other, gap),
+        (Some(a), Some(b)) => b.radius - a.distance(b.centre),
+        (Some(circle), None) => circle.depth_in(&b.polygon),
+        (None, Some(circle)) => circle.depth_in(&a.polygon),
+    };
+    let drawn = || overlap(one, other, 0.0).unwrap_or(Overlap { area: 0.0, at: a.centroid(), depth });
+    (depth > gap).then(|| Overlap { depth, ..drawn() })
 }
 
 /// The largest number of bodies in one frame whose corners may meet at one point. These bodies have 4 950 contacts, for
@@ -264,7 +277,7 @@ fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> Option<(Point
     let cell = |v: f64| if gap > 0.0 { (v / gap).round() } else { v } + 0.0;
     let mut corners: Vec<([f64; 2], Point, BodyId)> = Vec::new();
     for (id, body) in bodies {
-        let own = body.polygon.rings().iter().flatten();
+        let own = body.polygon.rings().iter().flatten().filter(|_| body.circle.is_none());
         corners.extend(own.map(|p| ([cell(p.x), cell(p.y)], *p, *id)));
     }
     corners.sort_by(|(a, _, one), (b, _, two)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(one.cmp(two)));

@@ -25,7 +25,7 @@ use self::declare::{entry, word};
 use super::{NoteCode, Scene, SceneError};
 use crate::read::{Expected, Node, NodeKind, Read, Reader, Trail};
 
-pub use body::{BlockEntry, ContactEntry, GroundEntry, LimitsEntry, RobotEntry};
+pub use body::{BlockEntry, CircleEntry, ContactEntry, GroundEntry, LimitsEntry, RobotEntry};
 pub(crate) use lines::Lines;
 pub use load::{BlockSide, CaseEntry, DepthEntry, LoadEntry, PressureEntry};
 pub use map::Map;
@@ -363,7 +363,7 @@ word! {
 }
 
 entry! {
-    /// A named shape: either a polygon or lattice cells, in coordinates relative to the origin of the shape.
+    /// A named shape: a polygon, lattice cells or a circle, in coordinates relative to the origin of the shape.
     pub struct ShapeEntry {
         /// Corners [x, y] of the outline in the length unit of the scene, clockwise or anticlockwise. The outline must
         /// not cross itself; it may be concave.
@@ -373,6 +373,8 @@ entry! {
         holes: Vec<Vec<Pair>>,
         /// Lattice cells that form the outline, connected by common edges, each listed once.
         cells: Option<Vec<CellEntry>> [length(min = 1)],
+        /// Circle that forms the outline.
+        circle: Option<CircleEntry>,
     }
 }
 

@@ -160,8 +160,9 @@ struct Drawn {
     numbers: Vec<usize>,
     /// Sizes of the bodies, in the unit of the corners. A part of the ground has the size of the largest block.
     sizes: Vec<f64>,
+    /// The outlines. A circle has no corners, so its outline is empty.
     outlines: Vec<Rings>,
-    /// Whether a body may not move, because it consists of lattice cells.
+    /// Whether a body may not move, because it consists of lattice cells or is a circle.
     fixed: Vec<bool>,
 }
 
@@ -199,7 +200,7 @@ pub(super) fn heal(ground: &mut [Option<Ground>], blocks: &mut [Option<Block>], 
         body.rounding = reach.rounding_of(*size, farthest);
     }
     for block in blocks.iter_mut().flatten().filter(|block| !block.has_own_centre) {
-        block.centroid = block.body.polygon.centroid();
+        block.centroid = block.body.centroid();
     }
     healed
 }
@@ -214,8 +215,8 @@ impl Drawn {
         for (number, body) in bodies(ground, blocks) {
             drawn.numbers.push(number);
             drawn.sizes.push(size(&body.polygon));
-            drawn.outlines.push(rings(&body.polygon));
-            drawn.fixed.push(body.cells.is_some());
+            drawn.outlines.push(if body.circle.is_some() { Rings::new() } else { rings(&body.polygon) });
+            drawn.fixed.push(body.cells.is_some() || body.circle.is_some());
         }
         let sizes = drawn.numbers.iter().zip(&mut drawn.sizes);
         let (grounds, blocks): (Vec<_>, Vec<_>) = sizes.partition(|(n, _)| **n < parts);

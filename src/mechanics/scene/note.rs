@@ -8,7 +8,7 @@ use super::finding::Finding;
 use super::format::{HoldEntry, Pair, SceneFile};
 use super::problem::{Wording, codes, message as say};
 use super::{BlockId, Body, BodyId, RobotId, Scene};
-use crate::geometry::{Bounds, Point, Polygon};
+use crate::geometry::{Bounds, Point};
 use crate::read::{Mark, Source};
 use crate::read::{Path, Trail};
 
@@ -234,7 +234,7 @@ impl Notes<'_> {
             return None;
         }
         let at = at.map(|x| x * unit.size);
-        outside(&body.polygon, at, body.gap).map(|distance| unit.value_from_si(distance))
+        outside(body, at).map(|distance| unit.value_from_si(distance))
     }
 
     fn loads(&mut self, file: &SceneFile) {
@@ -367,13 +367,9 @@ fn in_degrees(angle: f64) -> Option<f64> {
 
 /// Returns the distance of a point from a polygon, in metres. `None` if the point is inside, or outside by at most
 /// `gap` metres.
-fn outside(polygon: &Polygon, at: Pair, gap: f64) -> Option<f64> {
-    let point = Point::new(at[0], at[1]);
-    if polygon.contains(point) {
-        return None;
-    }
-    let distance = polygon.edges().map(|edge| edge.distance(point)).fold(f64::INFINITY, f64::min);
+fn outside(body: &Body, at: Pair) -> Option<f64> {
+    let distance = body.distance(Point::new(at[0], at[1]));
     // Because of rounding, a point on the boundary can seem to lie slightly outside. Do not report such points.
-    let noise = 1e-9 * polygon.bounds().diagonal();
-    (distance > gap.max(noise)).then_some(distance)
+    let noise = 1e-9 * body.polygon.bounds().diagonal();
+    (distance > body.gap.max(noise)).then_some(distance)
 }

@@ -1,10 +1,12 @@
 //! [`Outline`]: the shape of a body relative to its own origin, before the body is rotated and moved to its position.
 
 use super::finding::Findings;
-use super::format::{CellEntry, CellHalf, Pair};
-use super::number::{SMALLEST_EXTENT, is_sane};
+use super::format::{CellEntry, CellHalf, CircleEntry, Pair};
+use super::number::{SMALLEST_EXTENT, is_amount, is_sane};
 use super::problem;
-use crate::geometry::{Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector, sin_cos_degrees};
+use crate::geometry::{
+    Cell, CellShape, Circle, Lattice, LatticeKind, Point, Polygon, PolygonError, Vector, sin_cos_degrees,
+};
 use crate::read::Trail;
 
 /// The largest absolute value of a lattice coordinate in a file. Up to this value, sums and products of a few
@@ -18,6 +20,26 @@ pub(super) enum Outline {
     Polygon(Polygon),
     /// A set of lattice cells.
     Cells(Vec<Cell>),
+    /// A circle in the units of the file.
+    Circle(Circle),
+}
+
+/// The outline of a body at its position, and the cells or the circle of which it consists.
+pub(super) struct Placed {
+    pub(super) polygon: Polygon,
+    pub(super) cells: Option<Vec<Cell>>,
+    pub(super) circle: Option<Circle>,
+}
+
+/// Builds the circle of an entry. If it is not valid, reports the problems and returns `None`.
+pub(super) fn circle(findings: &mut Findings, at: &Trail<'_>, entry: &CircleEntry) -> Option<Outline> {
+    let at = at.key("circle");
+    let (centre, radius) = (entry.centre, entry.radius);
+    let sound = is_sane(findings, &at.key("centre"), &centre) & is_amount(findings, &at.key("radius"), &[radius]);
+    if sound && radius <= 0.0 {
+        findings.add(&at.key("radius"), problem::outline::no_radius(radius));
+    }
+    (sound && radius > 0.0).then(|| Outline::Circle(Circle { centre: Point::new(centre[0], centre[1]), radius }))
 }
 
 /// Builds the polygon of an entry from its corners and holes. If the polygon is not valid, reports the problems and
@@ -188,8 +210,7 @@ pub(super) fn placed_point(lattice: Option<Lattice>, point: Pair, at: Pair, angl
     Point::new(cos * point[0] - sin * point[1], sin * point[0] + cos * point[1]) + by
 }
 
-/// Rotates the outline by `angle` degrees anticlockwise about its origin and then moves it by `at`. Returns the polygon
-/// and, if the outline consists of lattice cells, these cells.
+/// Rotates the outline by `angle` degrees anticlockwise about its origin and then moves it by `at`.
 ///
 /// If the scene has a lattice, `at` is in lattice coordinates; otherwise it is in the units of the file. For cells,
 /// `at` must be whole numbers, and `angle` a multiple of 60° (triangles) or 90° (squares); otherwise a problem is
@@ -201,7 +222,7 @@ pub(super) fn placed(
     outline: Outline,
     at: Pair,
     angle: f64,
-) -> Option<(Polygon, Option<Vec<Cell>>)> {
+) -> Option<Placed> {
     match (outline, lattice) {
         (Outline::Cells(cells), Some(lattice)) => {
             let by = node(findings, &trail.key("at"), at);
@@ -214,11 +235,16 @@ pub(super) fn placed(
             let by = by?;
             let cells: Vec<Cell> = cells.into_iter().map(|c| c.turned(steps as i64).moved(by)).collect();
             let polygon = lattice.polygon(&cells)?;
-            Some((polygon, Some(cells)))
+            Some(Placed { polygon, cells: Some(cells), circle: None })
         }
         (Outline::Polygon(polygon), lattice) => {
             let by = lattice.map_or(Vector::new(at[0], at[1]), |l| l.point(at[0], at[1]).coords);
-            Some((polygon.placed(angle, by), None))
+            Some(Placed { polygon: polygon.placed(angle, by), cells: None, circle: None })
+        }
+        (Outline::Circle(circle), lattice) => {
+            let centre = placed_point(lattice, circle.centre.into(), at, angle);
+            let circle = Circle { centre, ..circle };
+            Some(Placed { polygon: circle.polygon(), cells: None, circle: Some(circle) })
         }
         (Outline::Cells(_), None) => None,
     }

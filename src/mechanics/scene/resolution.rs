@@ -194,7 +194,7 @@ impl<'f> Resolution<'f> {
         let corners = |name: &String| match self.shapes.get(name).and_then(|number| self.outlines[number].as_ref()) {
             Some(Outline::Polygon(polygon)) => polygon.rings().iter().map(Vec::len).sum(),
             Some(Outline::Cells(cells)) => cells.len(),
-            None => 0,
+            Some(Outline::Circle(_)) | None => 0,
         };
         used.map(corners).sum()
     }

@@ -44,12 +44,13 @@ pub(super) fn estimate_rounding(file: &SceneFile) -> Option<Rounding> {
         }
     };
     let entries = (file.ground.iter())
-        .map(|g| (&g.polygon, &g.holes, g.at, g.angle))
-        .chain((file.blocks.iter()).map(|b| (&b.polygon, &b.holes, b.at, b.angle)))
-        .chain((file.shapes.0.iter()).map(|s| (&s.1.polygon, &s.1.holes, None, None)));
-    for (polygon, holes, at, angle) in entries {
+        .map(|g| (&g.polygon, &g.holes, &g.circle, g.at, g.angle))
+        .chain((file.blocks.iter()).map(|b| (&b.polygon, &b.holes, &b.circle, b.at, b.angle)))
+        .chain((file.shapes.0.iter()).map(|s| (&s.1.polygon, &s.1.holes, &s.1.circle, None, None)));
+    for (polygon, holes, circle, at, angle) in entries {
         ring(polygon.as_deref().unwrap_or_default());
         holes.iter().for_each(|hole| ring(hole));
+        circle.iter().for_each(|circle| ring(&[circle.centre, [circle.radius; 2]]));
         // If the scene has a grid, `at` counts lattice steps, not lengths, so it is not used here.
         if file.grid.is_none() {
             ring(at.as_slice());

@@ -178,6 +178,9 @@ pub(super) fn to_si(scene: &mut Scene) {
 fn convert(body: &mut Body, length: f64) {
     let ring = |ring: &Vec<Point>| ring.iter().map(|p| Point::from(p.coords * length)).collect();
     body.polygon = Polygon::from_valid_rings(body.polygon.rings().iter().map(ring).collect());
+    if let Some(circle) = &mut body.circle {
+        (circle.centre, circle.radius) = (Point::from(circle.centre.coords * length), circle.radius * length);
+    }
     body.gap *= length;
     body.rounding *= length;
 }

@@ -1,6 +1,6 @@
 //! [`dxf`]: writes a frame as a DXF drawing in metres, for CAD programs.
 //!
-//! The file has the version R12 (AC1009), which nearly all CAD programs read. It contains closed polylines, lines,
+//! The file has the version R12 (AC1009), which nearly all CAD programs read. It contains closed polylines, circles, lines,
 //! points and text. Holes, names, the line of thrust and the mechanism lie on layers whose names begin with `guide`.
 //! `drystone import` ignores these layers, so that the drawing can be edited and imported again.
 
@@ -9,9 +9,9 @@ use std::fmt::Write as _;
 use super::displacement::Course;
 use super::fall::Fall;
 use super::{funicular, unit};
-use crate::geometry::{Point, Polygon};
+use crate::geometry::Point;
 use crate::mechanics::analysis::{Analysis, Verdict};
-use crate::mechanics::scene::{Frame, Scene};
+use crate::mechanics::scene::{Body, Frame, Scene};
 
 /// The layers with their AutoCAD colour numbers.
 const LAYERS: [(&str, i32); 7] = [
@@ -57,7 +57,7 @@ pub fn dxf(analysis: &Analysis, frame: usize) -> String {
     let mut file = DxfWriter::default();
     file.head();
     for ground in &scene.ground {
-        file.outline(GROUND_LAYER, &ground.body.polygon);
+        file.outline(GROUND_LAYER, &ground.body);
     }
     file.blocks(scene, placed, LETTER_SHARE * unit);
     for hold in &placed.holds {
@@ -144,17 +144,23 @@ impl DxfWriter {
     fn blocks(&mut self, scene: &Scene, frame: &Frame, letters: f64) {
         for id in &frame.placed {
             let block = &scene.blocks[id.0];
-            self.outline(BLOCK_LAYER, &block.body.polygon);
+            self.outline(BLOCK_LAYER, &block.body);
             self.entity("TEXT", NAME_LAYER);
-            self.point(10, block.body.polygon.centroid());
+            self.point(10, block.body.centroid());
             self.number(40, letters);
             self.group(1, &ascii(&block.id));
         }
     }
 
-    fn outline(&mut self, layer: &str, polygon: &Polygon) {
-        self.polyline(layer, polygon.outline());
-        for hole in polygon.holes() {
+    fn outline(&mut self, layer: &str, body: &Body) {
+        if let Some(circle) = body.circle {
+            self.entity("CIRCLE", layer);
+            self.point(10, circle.centre);
+            self.number(40, circle.radius);
+            return;
+        }
+        self.polyline(layer, body.polygon.outline());
+        for hole in body.polygon.holes() {
             self.polyline(HOLE_LAYER, hole);
         }
     }

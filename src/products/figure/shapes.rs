@@ -35,6 +35,7 @@ impl<'n> SheetShape<'n> {
         let view = polygon.bounds().union(origin).grown(0.12 * lattice.side);
         let body = Body {
             polygon,
+            circle: None,
             cells: Some(cells.to_vec()),
             material: None,
             friction: 0.0,

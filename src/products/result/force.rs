@@ -72,9 +72,10 @@ impl<'a> Motion<'a> {
 impl<'a> Interface<'a> {
     pub(super) fn new(scene: &'a Scene, contact: &Contact) -> Interface<'a> {
         let interface = &contact.interface;
+        let is_round = interface.bodies.iter().any(|body| scene.body(*body).circle.is_some());
         Interface {
             bodies: interface.bodies.map(|b| scene.name(b)),
-            kind: (interface.kind == ContactKind::Corner).then_some("corner"),
+            kind: (interface.kind == ContactKind::Corner).then_some(if is_round { "circle" } else { "corner" }),
             ends: interface.ends.map(place),
             application_points: contact.application_points.map(place),
             normal: arrow(interface.normal),

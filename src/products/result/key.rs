@@ -258,7 +258,7 @@ pub static KEYS: &[Key] = &[
         ]),
         key("interfaces", Objects, "contacts between bodies; forces act on `bodies[0]`").of(&[
             key("bodies", Names, "two bodies that touch; `ground` is the ground"),
-            key("kind", Word(&["corner"]), "a corner touches an edge or another corner").when("at corner contacts"),
+            key("kind", Word(&["corner", "circle"]), "a corner touches an edge or another corner, or a circle touches").when("at contacts of one point"),
             key("ends", Pairs, "ends of the interface").unit("m"),
             key("application_points", Pairs, "points of the normal forces: the ends, moved inward by the kernel").unit("m"),
             key("normal", Pair, "unit normal, which points into `bodies[0]`"),

@@ -13,6 +13,7 @@ fn scene() -> Scene {
     let corners = vec![Point::new(0.0, 0.0), Point::new(3.0, 0.0), Point::new(0.0, 2.0)];
     let body = Body {
         polygon: Polygon::new(corners, vec![]).expect("a valid polygon"),
+        circle: None,
         cells: None,
         material: None,
         friction: 0.5,

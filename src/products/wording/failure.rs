@@ -190,6 +190,7 @@ fn touching_corner(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<Stri
     let with_corners = Scene { corner_contacts: true, ..scene.clone() };
     let corner = Interfaces::new(&with_corners).all.into_iter().find(|interface| {
         interface.kind == ContactKind::Corner
+            && !frame_analysis.contacts.iter().any(|contact| contact.interface == *interface)
             && interface.bodies.iter().any(is_unsupported)
             && interface.bodies.iter().all(is_placed)
     })?;

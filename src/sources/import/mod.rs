@@ -355,7 +355,7 @@ fn build_scene(
     let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(LENGTH_TOL * size);
     let close = options.gap.unwrap_or(LENGTH_TOL * size).min(LENGTH_TOL * size);
-    if draft.parts.iter().any(|p| matches!(&p.form, PartGeometry::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(subpath::Subpath::has_curves))) {
+    if draft.parts.iter().any(|p| matches!(&p.form, PartGeometry::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(|s| s.has_curves() && s.circle().is_none()))) {
         draft.notes.push(format!("curves are replaced by chords, at most {} m from the curve", scale::short(flatten)));
     }
     let title = std::mem::take(&mut draft.title);
@@ -373,7 +373,7 @@ fn build_scene(
     if gap > 0.0 {
         draft.notes.push(format!("edges within {} m of each other are moved so that they touch", scale::short(gap)));
     }
-    let scene = scene_file::scene(&outlines, &names, &mut draft, title, size, &options.scene);
+    let scene = scene_file::scene(&outlines, &names, &mut draft, title, [size, gap], &options.scene);
     match trial::checked(&scene.to_json()) {
         Ok(read) => {
             draft.notes.extend(trial.lonely(&read, &outlines));

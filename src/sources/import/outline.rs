@@ -6,7 +6,7 @@ use super::region::regions;
 use super::subpath::Subpath;
 use super::{MAX_NAMES, Remark, limit};
 use crate::geometry::snap::{Corner, Rings, area, polygon};
-use crate::geometry::{Bounds, Point, Polygon, PolygonError, cross};
+use crate::geometry::{Bounds, Circle, Point, Polygon, PolygonError, cross};
 use crate::mechanics::scene::Problem;
 use crate::text::first_of;
 
@@ -31,6 +31,8 @@ pub(super) struct Body {
     pub(super) name: String,
     pub(super) element: String,
     pub(super) rings: Rings,
+    /// The circle, if the body is one. Its ring is only for messages.
+    pub(super) circle: Option<Circle>,
     pub(super) fill: Option<[u8; 3]>,
     pub(super) values: Values,
 }
@@ -90,8 +92,12 @@ impl Outlines {
                         continue;
                     }
                     let rings = clipped(draft, &part, rings, flatten);
+                    let circles: Vec<(Vec<Corner>, Circle)> =
+                        subpaths.iter().filter_map(|s| Some((s.flattened(flatten, close)?, s.circle()?))).collect();
                     for rings in regions(rings, rule) {
-                        outlines.add(draft, &part, rings);
+                        // A circle that is cut or has a hole is a polygon.
+                        let circle = circles.iter().find(|(ring, _)| rings[..] == [ring.clone()]).map(|found| found.1);
+                        outlines.add(draft, &part, rings, circle);
                     }
                 }
             }
@@ -149,7 +155,7 @@ impl Outlines {
         Ok(())
     }
 
-    fn add(&mut self, draft: &mut Draft, part: &Part, rings: Rings) {
+    fn add(&mut self, draft: &mut Draft, part: &Part, rings: Rings, circle: Option<Circle>) {
         let polygon = match polygon(&rings) {
             Ok(polygon) => polygon,
             Err(flaws) => {
@@ -165,6 +171,7 @@ impl Outlines {
                 name: part.name.clone(),
                 element: part.element.clone(),
                 rings,
+                circle,
                 fill: part.fill,
                 values: part.values,
             });
@@ -331,6 +338,6 @@ impl Body {
     /// Returns the polygon of the body. [`Outlines::new`] has found it valid; `None` if a later change has made it
     /// invalid.
     pub(super) fn polygon(&self) -> Option<Polygon> {
-        polygon(&self.rings).ok()
+        self.circle.map(Circle::polygon).or_else(|| polygon(&self.rings).ok())
     }
 }

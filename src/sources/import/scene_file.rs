@@ -6,21 +6,23 @@ use super::draft::{Draft, Role};
 use super::name::Names;
 use super::outline::{Body, Outlines};
 use super::scale::short;
-use crate::geometry::{Bounds, Point, Polygon};
-use crate::mechanics::scene::format::{BlockEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile};
+use crate::geometry::{Bounds, Circle, Point, Polygon};
+use crate::mechanics::scene::format::{
+    BlockEntry, CircleEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile,
+};
 
 /// The step to which coordinates are rounded, as a fraction of the size of the drawing. The contact tolerance of a
 /// scene is about a thousand times larger, so rounding does not separate bodies that touch.
 const COORDINATE_STEP: f64 = 1e-9;
 
 /// Returns the scene file of the outlines. `size` is the size of the drawing in metres, to which the rounding of
-/// coordinates is proportional. `given` contains the properties of the whole scene, such as friction.
+/// coordinates is proportional. Circles touch within `gap` metres. `given` contains the properties of the whole scene, such as friction.
 pub(super) fn scene(
     outlines: &Outlines,
     names: &Names,
     draft: &mut Draft,
     title: String,
-    size: f64,
+    [size, gap]: [f64; 2],
     given: &SceneFile,
 ) -> SceneFile {
     let round = Rounding::new(COORDINATE_STEP * size);
@@ -46,6 +48,7 @@ pub(super) fn scene(
         ground: ground_entries,
         blocks,
         robots: robots(outlines, names, draft, &round),
+        contact_tolerance: Some(gap).filter(|gap| has_gaps(outlines, [COORDINATE_STEP * size, *gap])),
         ..SceneFile::default()
     }
 }
@@ -53,7 +56,8 @@ pub(super) fn scene(
 fn block_entry(body: &Body, name: &str, round: &Rounding) -> BlockEntry {
     BlockEntry {
         id: Some(name.to_owned()),
-        polygon: Some(round.ring(body, 0)),
+        polygon: round.outline(body),
+        circle: round.circle(body),
         holes: (1..body.rings.len()).map(|i| round.ring(body, i)).collect(),
         material: body.fill.map(material),
         weight: body.values.weight,
@@ -65,7 +69,8 @@ fn block_entry(body: &Body, name: &str, round: &Rounding) -> BlockEntry {
 
 fn ground_entry(body: &Body, round: &Rounding) -> GroundEntry {
     GroundEntry {
-        polygon: Some(round.ring(body, 0)),
+        polygon: round.outline(body),
+        circle: round.circle(body),
         holes: (1..body.rings.len()).map(|i| round.ring(body, i)).collect(),
         friction: body.values.friction,
         fill: body.fill.map(hex),
@@ -108,6 +113,23 @@ fn robots(outlines: &Outlines, names: &Names, draft: &mut Draft, round: &Roundin
     entries
 }
 
+/// True if a circle and another body are apart, or overlap, by more than the first and at most the second length, in
+/// metres. Circles are not moved, so such bodies touch only within a tolerance.
+fn has_gaps(outlines: &Outlines, [least, most]: [f64; 2]) -> bool {
+    let bodies: Vec<(Option<Circle>, Polygon)> =
+        outlines.bodies.iter().filter_map(|body| Some((body.circle, body.polygon()?))).collect();
+    bodies.iter().enumerate().any(|(i, (circle, _))| {
+        let Some(circle) = circle else { return false };
+        let around = circle.polygon().bounds().grown(2.0 * most);
+        let others = bodies.iter().enumerate().filter(|(k, (_, other))| *k != i && around.intersects(other.bounds()));
+        let gaps = others.map(|(_, (round, polygon))| match round {
+            Some(round) => round.distance(circle.centre) - circle.radius,
+            None => -circle.depth_in(polygon),
+        });
+        gaps.map(f64::abs).any(|gap| gap > least && gap <= most)
+    })
+}
+
 fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
@@ -140,6 +162,14 @@ impl Rounding {
 
     fn pair(&self, p: Point) -> Pair {
         [self.number(p.x), self.number(p.y)]
+    }
+
+    fn outline(&self, body: &Body) -> Option<Vec<Pair>> {
+        body.circle.is_none().then(|| self.ring(body, 0))
+    }
+
+    fn circle(&self, body: &Body) -> Option<CircleEntry> {
+        body.circle.map(|circle| CircleEntry::new(self.pair(circle.centre), self.number(circle.radius)))
     }
 
     fn ring(&self, body: &Body, ring: usize) -> Vec<Pair> {

@@ -3,7 +3,7 @@
 use super::Snapped;
 use super::draft::{Draft, Role};
 use super::name::Names;
-use super::outline::Outlines;
+use super::outline::{Body, Outlines};
 use crate::geometry::snap::{self, Rings};
 use crate::geometry::{Bounds, Tolerance};
 
@@ -16,8 +16,11 @@ impl Outlines {
         if !(gap > 0.0) {
             return Vec::new();
         }
-        let rings: Vec<Rings> = self.bodies.iter().map(|b| b.rings.clone()).collect();
-        let (gaps, fixed) = (vec![gap; rings.len()], vec![false; rings.len()]);
+        // A circle has no corners.
+        let rings_of = |b: &Body| if b.circle.is_some() { Rings::new() } else { b.rings.clone() };
+        let rings: Vec<Rings> = self.bodies.iter().map(rings_of).collect();
+        let (gaps, fixed) =
+            (vec![gap; rings.len()], self.bodies.iter().map(|b| b.circle.is_some()).collect::<Vec<_>>());
         let outcome = snap::snapped(&rings, snap::Gaps::new(&gaps), &fixed, 0.5 * self.tolerance() / gap);
         self.remark_kept(draft, &outcome.kept);
         let described = |moved: &snap::Moved| Snapped {
@@ -28,7 +31,8 @@ impl Outlines {
             to: moved.to.iter().map(|b| names.bodies[*b].clone()).collect(),
         };
         let snapped = outcome.moved.iter().map(described).collect();
-        for (body, rings) in self.bodies.iter_mut().zip(outcome.bodies.into_owned()) {
+        let moved = self.bodies.iter_mut().zip(outcome.bodies.into_owned());
+        for (body, rings) in moved.filter(|(body, _)| body.circle.is_none()) {
             body.rings = rings;
         }
         snapped

@@ -9,8 +9,10 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 
 use super::affine::Affine;
 use crate::geometry::snap::Corner;
-use crate::geometry::{Point, Vector, cross};
+use crate::geometry::{Circle, Point, Vector, cross};
 
+/// Arcs whose centres, radii and angles differ by less than this share of the radius form one circle.
+const SAME_CIRCLE: f64 = 1e-6;
 /// The largest number of chords of one curve.
 const MAX_CHORDS: f64 = 4096.0;
 
@@ -93,6 +95,33 @@ impl Subpath {
             segments: self.segments.iter().enumerate().rev().map(back).collect(),
             closed: self.closed,
         }
+    }
+
+    /// Returns the circle that the subpath is. `None` if it is another curve.
+    pub(super) fn circle(&self) -> Option<Circle> {
+        let first = self.segments.iter().find_map(|segment| match segment {
+            Segment::Arc(arc) => Some(arc),
+            _ => None,
+        })?;
+        let radius = first.u.norm();
+        let small = SAME_CIRCLE * radius;
+        let mut turn = 0.0;
+        let mut from = self.start;
+        for segment in &self.segments {
+            match segment {
+                Segment::Arc(arc) => {
+                    let is_same = (arc.centre - first.centre).norm() <= small
+                        && (arc.u.norm() - radius).abs() <= small
+                        && (arc.v.norm() - radius).abs() <= small
+                        && arc.u.dot(&arc.v).abs() <= small * radius;
+                    turn += if is_same { cross(arc.u, arc.v).signum() * arc.sweep } else { f64::NAN };
+                }
+                _ if (segment.end() - from).norm() <= small => {}
+                _ => return None,
+            }
+            from = segment.end();
+        }
+        ((turn.abs() - TAU).abs() <= SAME_CIRCLE).then_some(Circle { centre: first.centre, radius })
     }
 
     /// True if the subpath has a segment that is not straight.

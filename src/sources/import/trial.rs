@@ -40,7 +40,8 @@ impl Trial<'_> {
         let mut tried = self.drawn.clone();
         tried.snap(&mut Draft::default(), self.names, gap);
         let given = SceneFile::default();
-        let scene = scene_file::scene(&tried, self.names, &mut Draft::default(), String::new(), self.size, &given);
+        let scene =
+            scene_file::scene(&tried, self.names, &mut Draft::default(), String::new(), [self.size, gap], &given);
         checked(&scene.to_json()).ok()
     }
 

@@ -104,15 +104,8 @@ const MAX_RELATIVE_GAP: f64 = 1e-4;
 
 /// Returns a notice about the first of `points` that lies outside the block; `None` if there is no such point.
 fn outside(block: &Block, points: &[Point]) -> Option<String> {
-    let outline = block.body.polygon.outline();
-    let next = |k: usize| outline[(k + 1) % outline.len()];
-    let near = |at: Point| {
-        let edges = outline.iter().enumerate();
-        let away = edges.map(|(k, a)| region::to_segment(at.coords, a.coords, next(k).coords));
-        away.fold(f64::INFINITY, f64::min)
-    };
     let small = 1e-6 * block.body.polygon.bounds().diagonal();
-    let is_outside = |at: &&Point| !block.body.polygon.contains(**at) && near(**at) > small;
+    let is_outside = |at: &&Point| block.body.distance(**at) > small;
     points.iter().find(is_outside).map(|at| {
         format!(
             "capacity: the point ({}, {}) lies outside the block; the force acts there as on an arm that is fixed to it",

@@ -75,7 +75,9 @@ impl<'s> Finder<'s> {
         for body in bodies {
             first.push((body, all.len()));
             let mut number = 0;
-            for ring in scene.body(body).polygon.rings() {
+            // A circle has no corners.
+            let rings = scene.body(body).polygon.rings().iter().filter(|_| scene.body(body).circle.is_none());
+            for ring in rings {
                 let start = all.len();
                 for (k, at) in ring.iter().enumerate() {
                     let next = [(k + ring.len() - 1) % ring.len(), (k + 1) % ring.len()];

@@ -6,7 +6,24 @@ use super::declare::entry;
 use super::{CellEntry, Pair, two_names};
 
 entry! {
-    /// A part of the ground; one of `polygon`, `cells` and `shape` gives its outline.
+    /// A circle.
+    pub struct CircleEntry {
+        /// Centre [x, y] in the length unit of the scene.
+        centre: required Pair,
+        /// Radius in the length unit of the scene, more than 0.
+        radius: required f64 [extend("exclusiveMinimum" = 0.0)],
+    }
+}
+
+impl CircleEntry {
+    /// Creates a circle with this centre and radius, both in the length unit of the scene.
+    pub fn new(centre: Pair, radius: f64) -> CircleEntry {
+        CircleEntry { centre, radius }
+    }
+}
+
+entry! {
+    /// A part of the ground; one of `polygon`, `cells`, `circle` and `shape` gives its outline.
     pub struct GroundEntry {
         /// Name of this part of the ground in results and in the list `movements`, used by no block and no other part;
         /// neither empty nor `ground`. Default: results call the part `ground`.
@@ -19,6 +36,9 @@ entry! {
         holes: Vec<Vec<Pair>>,
         /// Lattice cells that form the outline, connected by common edges, each listed once.
         cells: Option<Vec<CellEntry>> [length(min = 1)],
+        /// Circle that forms the outline. It touches another body in one point: at an edge, at another circle, or, if
+        /// the scene has `corner_contacts`, at a corner.
+        circle: Option<CircleEntry>,
         /// Name of a shape that gives the outline.
         shape: Option<String>,
         /// Position of the body's origin: in the length unit of the scene, or in lattice coordinates if the scene has a
@@ -37,7 +57,7 @@ entry! {
 }
 
 entry! {
-    /// A rigid block; one of `polygon`, `cells` and `shape` gives its outline. A block may have a `centre` instead of
+    /// A rigid block; one of `polygon`, `cells`, `circle` and `shape` gives its outline. A block may have a `centre` instead of
     /// an outline; it then touches other bodies only at listed `contacts`.
     pub struct BlockEntry {
         /// Name of the block, used by no other block; neither empty nor `ground`. Default: the number of the block in
@@ -51,6 +71,9 @@ entry! {
         holes: Vec<Vec<Pair>>,
         /// Lattice cells that form the outline, connected by common edges, each listed once.
         cells: Option<Vec<CellEntry>> [length(min = 1)],
+        /// Circle that forms the outline. It touches another body in one point: at an edge, at another circle, or, if
+        /// the scene has `corner_contacts`, at a corner.
+        circle: Option<CircleEntry>,
         /// Name of a shape that gives the outline.
         shape: Option<String>,
         /// Position of the body's origin: in the length unit of the scene, or in lattice coordinates if the scene has a
@@ -85,7 +108,7 @@ entry! {
 impl BlockEntry {
     /// True if the block has a key that gives its outline.
     pub(in crate::mechanics::scene) fn has_outline(&self) -> bool {
-        self.polygon.is_some() || self.cells.is_some() || self.shape.is_some()
+        self.polygon.is_some() || self.cells.is_some() || self.circle.is_some() || self.shape.is_some()
     }
 
     /// Creates a block with this id.

@@ -69,7 +69,7 @@ codes! {
     ReservedName "reserved_name" "the name is reserved for the ground or for a built-in shape",
     DuplicatePair "duplicate_pair" "a pair of materials has two friction coefficients",
     NoOutline "no_outline" "a body or shape has no outline",
-    TwoOutlines "two_outlines" "two keys that exclude each other are given: two of `polygon`, `cells` and `shape`, without an outline, `centre` with `at` or `angle`; `pressure` with `force`, `at` or `torque`; `side` with `between`",
+    TwoOutlines "two_outlines" "two keys that exclude each other are given: two of `polygon`, `cells`, `circle` and `shape`, without an outline, `centre` with `at` or `angle`; `pressure` with `force`, `at` or `torque`; `side` with `between`",
     NoEdge "no_edge" "a pressure acts on no edge of a block: the block has no such side, or the points do not lie on one free outline",
     HolesWithoutPolygon "holes_without_polygon" "`holes` are given without a `polygon`",
     TooFewCorners "too_few_corners" "an outline has fewer than three different corners",

@@ -53,8 +53,8 @@ pub(in crate::mechanics::scene) fn hole_outside() -> Wording {
 pub(in crate::mechanics::scene) fn no_outline() -> Wording {
     new_wording(
         Code::NoOutline,
-        "the body has no `polygon`, no `cells` and no `shape`",
-        "give `polygon`, `cells` or `shape`",
+        "the body has no `polygon`, no `cells`, no `circle` and no `shape`",
+        "give `polygon`, `cells`, `circle` or `shape`",
     )
 }
 
@@ -67,7 +67,15 @@ pub(in crate::mechanics::scene) fn centre_without_mass() -> Wording {
 }
 
 pub(in crate::mechanics::scene) fn no_shape_outline() -> Wording {
-    new_wording(Code::NoOutline, "the shape has no `polygon` and no `cells`", "give `polygon` or `cells`")
+    new_wording(
+        Code::NoOutline,
+        "the shape has no `polygon`, no `cells` and no `circle`",
+        "give `polygon`, `cells` or `circle`",
+    )
+}
+
+pub(in crate::mechanics::scene) fn no_radius(radius: f64) -> Wording {
+    new_wording(Code::ZeroArea, format!("the radius is {}", digits(radius)), "give a radius of more than 0")
 }
 
 pub(in crate::mechanics::scene) fn two_outlines(first: &str, second: &str) -> Wording {

@@ -15,6 +15,7 @@ pub(super) struct BodyEntry<'f> {
     pub(super) polygon: Option<&'f [Pair]>,
     pub(super) holes: &'f [Vec<Pair>],
     pub(super) cells: Option<&'f [format::CellEntry]>,
+    circle: Option<&'f format::CircleEntry>,
     pub(super) shape: Option<&'f str>,
     pub(super) at: Option<Pair>,
     pub(super) angle: Option<f64>,
@@ -32,6 +33,7 @@ macro_rules! from_entries {
                         polygon: entry.polygon.as_deref(),
                         holes: &entry.holes,
                         cells: entry.cells.as_deref(),
+                        circle: entry.circle.as_ref(),
                         shape: entry.shape.as_deref(),
                         at: entry.at,
                         angle: entry.angle,
@@ -55,6 +57,7 @@ impl Resolution<'_> {
         polygon: Option<&[Pair]>,
         holes: &[Vec<Pair>],
         cells: Option<&[format::CellEntry]>,
+        circle: Option<&format::CircleEntry>,
     ) -> Option<Outline> {
         if polygon.is_none() && !holes.is_empty() {
             findings.add(&at.key("holes"), problem::outline::holes_alone());
@@ -63,9 +66,10 @@ impl Resolution<'_> {
         if findings.is_unread(at) {
             return None;
         }
-        match (polygon, cells) {
-            (Some(corners), _) => outline::polygon(findings, at, corners, holes),
-            (None, Some(entries)) if self.grid_known => outline::cells(findings, at, self.lattice, entries),
+        match (polygon, cells, circle) {
+            (Some(corners), ..) => outline::polygon(findings, at, corners, holes),
+            (None, Some(entries), _) if self.grid_known => outline::cells(findings, at, self.lattice, entries),
+            (None, None, Some(entry)) => outline::circle(findings, at, entry),
             _ => None,
         }
     }
@@ -78,8 +82,12 @@ impl Resolution<'_> {
         let angle = entry.angle.unwrap_or(0.0);
         let place = entry.at.unwrap_or([0.0, 0.0]);
         let sound = is_sane(findings, &at.key("angle"), &[angle]) & is_sane(findings, &at.key("at"), &place);
-        let given =
-            [("polygon", entry.polygon.is_some()), ("cells", entry.cells.is_some()), ("shape", entry.shape.is_some())];
+        let given = [
+            ("polygon", entry.polygon.is_some()),
+            ("cells", entry.cells.is_some()),
+            ("circle", entry.circle.is_some()),
+            ("shape", entry.shape.is_some()),
+        ];
         let mut given = given.iter().filter(|g| g.1).map(|g| g.0);
         let outline = match (given.next(), given.next()) {
             (None, _) => {
@@ -96,14 +104,16 @@ impl Resolution<'_> {
                 }
                 self.shape(findings, &at.key("shape"), entry.shape.unwrap_or("")).cloned()
             }
-            (Some(_), None) => self.outline(findings, at, entry.polygon, entry.holes, entry.cells),
+            (Some(_), None) => self.outline(findings, at, entry.polygon, entry.holes, entry.cells, entry.circle),
         };
         if !sound || !self.grid_known || findings.is_unread(at) {
             return None;
         }
-        let (polygon, cells) = outline::placed(findings, at, self.lattice, outline?, place, angle)?;
+        let outline::Placed { polygon, cells, circle } =
+            outline::placed(findings, at, self.lattice, outline?, place, angle)?;
         Some(Body {
             polygon,
+            circle,
             cells,
             material,
             friction: friction.or(values.and_then(|v| v.friction)).unwrap_or(self.friction),
@@ -154,7 +164,7 @@ impl Resolution<'_> {
         let body = self.body(findings, at, &entry.into())?;
         let area = match (&body.cells, self.lattice) {
             (Some(cells), Some(lattice)) => cells.len() as f64 * lattice.cell_area(),
-            _ => body.polygon.area(),
+            _ => body.area(),
         };
         let density =
             density.or_else(|| body.material.and_then(|m| self.material_entries[m].density)).unwrap_or(self.density);
@@ -176,7 +186,7 @@ impl Resolution<'_> {
         });
         Some(Block {
             id: self.ids[i].clone(),
-            centroid: own_centre.unwrap_or_else(|| body.polygon.centroid()),
+            centroid: own_centre.unwrap_or_else(|| body.centroid()),
             has_own_centre: own_centre.is_some(),
             body,
             weight,

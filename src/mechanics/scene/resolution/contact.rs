@@ -113,6 +113,7 @@ impl Resolution<'_> {
     pub(super) fn schematic(&self, corners: Vec<Point>) -> Body {
         Body {
             polygon: Polygon::from_valid_rings(vec![convex_hull(corners)]),
+            circle: None,
             cells: None,
             material: None,
             friction: self.friction,

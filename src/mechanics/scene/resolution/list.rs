@@ -26,16 +26,19 @@ impl Resolution<'_> {
             if shape::BUILT_IN.contains(&name.as_str()) {
                 findings.add_key(&at, problem::message::built_in_shape(name));
             }
-            outlines.push(match (&entry.polygon, &entry.cells) {
-                (Some(_), Some(_)) => {
-                    findings.add(&at, problem::outline::two_outlines("polygon", "cells"));
+            let (polygon, cells, circle) = (entry.polygon.as_deref(), entry.cells.as_deref(), entry.circle.as_ref());
+            let given = [("polygon", polygon.is_some()), ("cells", cells.is_some()), ("circle", circle.is_some())];
+            let mut given = given.iter().filter(|given| given.1).map(|given| given.0);
+            outlines.push(match (given.next(), given.next()) {
+                (Some(first), Some(second)) => {
+                    findings.add(&at, problem::outline::two_outlines(first, second));
                     None
                 }
-                (None, None) => {
+                (None, _) => {
                     findings.add(&at, problem::outline::no_shape_outline());
                     None
                 }
-                (polygon, cells) => self.outline(findings, &at, polygon.as_deref(), &entry.holes, cells.as_deref()),
+                _ => self.outline(findings, &at, polygon, &entry.holes, cells, circle),
             });
         }
         for name in shape::BUILT_IN {

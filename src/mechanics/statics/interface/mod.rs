@@ -4,6 +4,7 @@
 //! Invariant: the first body of an interface is a block, and the normal points into this block. Edges that are slightly
 //! too far apart for an interface, and common segments that are too short, are reported in [`Interfaces::notices`].
 
+mod circle;
 mod corner;
 mod common_segment;
 mod edge;
@@ -27,7 +28,7 @@ use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
 pub enum ContactKind {
     /// Two edges share a segment.
     Edge,
-    /// A corner touches an edge or another corner; the contact force acts at one point.
+    /// A corner touches an edge or another corner, or a circle touches; the contact force acts at one point.
     Corner,
 }
 
@@ -157,6 +158,7 @@ impl Interfaces {
             },
             _ => edge::find(scene),
         };
+        circle::find(scene, &mut found);
         if scene.corner_contacts {
             let corners = corner::find(scene, &found.all);
             found.all.extend(corners);
@@ -220,12 +222,12 @@ impl Interfaces {
     }
 }
 
-/// Returns the bodies of a scene whose outlines can touch: first the parts of the ground, then the blocks. Bodies with
-/// a schematic outline are left out, because they touch only at listed contacts.
+/// Returns the bodies of a scene whose edges can touch: first the parts of the ground, then the blocks. Circles have no
+/// edges. Bodies with a schematic outline are left out too, because they touch only at listed contacts.
 fn bodies(scene: &Scene) -> impl Iterator<Item = BodyId> + '_ {
     let ground = (0..scene.ground.len()).map(BodyId::Ground);
     let bodies = ground.chain((0..scene.blocks.len()).map(|i| BodyId::Block(BlockId(i))));
-    bodies.filter(|body| !scene.body(*body).is_schematic)
+    bodies.filter(|body| !scene.body(*body).is_schematic && scene.body(*body).circle.is_none())
 }
 
 /// Returns two bodies in the order in which an interface lists them: the later block first, the ground last.
