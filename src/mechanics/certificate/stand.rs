@@ -177,8 +177,9 @@ pub(super) fn order(assembly: &Assembly, frame: &FrameForm, forces: &[[f64; 3]],
         }
     }
     let mut least = f64::INFINITY;
-    while !at_once {
+    loop {
         let next = match heap.pop() {
+            _ if at_once => break,
             Some((_, _, body)) if is_anchored[body] => continue,
             Some((Slack(slack), chosen, body)) => Some((body, chosen, slack)),
             // No single contact leads on: combine the components of several.

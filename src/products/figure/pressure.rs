@@ -43,7 +43,7 @@ pub(crate) fn diagrams(canvas: &mut Canvas<'_>) {
             Path::stroked(lines, Stroke::new(ink, canvas.mm(0.14))),
         ];
         let unit = scene.units.force();
-        let [first, last] = spread.force.map(|force| quantity(force.norm(), unit.clone()));
+        let [first, last] = spread.force.map(|force| quantity(force.norm(), unit));
         let title = format!("Pressure on block {}: {first} to {last} per metre", scene.name(body));
         canvas.put(Mark::new(Layer::Load, "pressure", shapes).titled(title).avoided(canvas.mm(0.2)));
     }

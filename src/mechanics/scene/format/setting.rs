@@ -63,7 +63,7 @@ impl Setting {
     }
 
     /// Returns the changed text, and the path of the value in it.
-    fn applied(&self, text: &str) -> Result<(String, String), Problem> {
+    fn applied(&self, text: &str) -> Result<(String, String), Box<Problem>> {
         // A text that is not JSON is left as it is; reading it gives the error.
         let Ok(tree) = parse(text) else { return Ok((text.to_owned(), String::new())) };
         let root = Place { tree: &tree, text };
@@ -95,7 +95,7 @@ pub(in crate::mechanics::scene) fn changed<'s>(
                 changed = text;
                 paths.push((setting, path));
             }
-            Err(problem) => wrong.push(problem),
+            Err(problem) => wrong.push(*problem),
         }
     }
     if !wrong.is_empty() {
@@ -160,7 +160,7 @@ impl<'t> Place<'t> {
     }
 
     /// Gives `name`, as seen from `node`, the value `value`. Extends `path`, the path of `node`, to that of the value.
-    fn edits(&self, node: &'t Node<'t>, name: &str, value: &str, path: &mut Path) -> Result<Edits, Problem> {
+    fn edits(&self, node: &'t Node<'t>, name: &str, value: &str, path: &mut Path) -> Result<Edits, Box<Problem>> {
         match &node.kind {
             NodeKind::List(list) => {
                 let items = self.tree.items(list);
@@ -210,7 +210,7 @@ impl<'t> Place<'t> {
     }
 
     /// Finds the entry of a list with which `name` begins. Returns its index, and the rest of the name.
-    fn item<'n>(&self, list: &'t List, name: &'n str, path: &Path) -> Result<(usize, &'n str), Problem> {
+    fn item<'n>(&self, list: &'t List, name: &'n str, path: &Path) -> Result<(usize, &'n str), Box<Problem>> {
         let items = self.tree.items(list);
         if let Some((index, rest)) = name.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
             let number = index.parse().ok().filter(|number| *number < items.len());
@@ -279,8 +279,8 @@ fn quoted(text: &str) -> String {
     json(&serde_json::Value::from(text).to_string())
 }
 
-fn unknown(path: &Path, message: String, help: String) -> Problem {
+fn unknown(path: &Path, message: String, help: String) -> Box<Problem> {
     let code = Code::UnknownName;
     let message = format!("--set: {message}");
-    Problem { code, path: path.to_string(), line: 0, column: 0, span: None, message, help, place: None }
+    Box::new(Problem { code, path: path.to_string(), line: 0, column: 0, span: None, message, help, place: None })
 }
