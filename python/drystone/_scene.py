@@ -45,6 +45,7 @@ class Scene:
         contact_tolerance: float | None = None,
         corner_contacts: bool | None = None,
         grid: Mapping[str, Any] | None = None,
+        vehicle: Mapping[str, Any] | None = None,
         expect: str | None = None,
         silence: Sequence[str] | None = None,
     ) -> None:

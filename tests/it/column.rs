@@ -82,7 +82,7 @@ fn the_flow_at_the_foot_of_a_pier_stays_in_the_pier() {
     let drawing = drawn("flyingbuttress_over", Kind::Flow);
     let points = |class: &str| -> Vec<PagePoint> {
         let groups = classes(&drawing.items, &[class]);
-        groups.into_iter().flat_map(|group| pieces(group)).flatten().collect()
+        groups.into_iter().flat_map(pieces).flatten().collect()
     };
     let (bands, stones) = (points("strand"), points("block"));
     let bottom = stones.iter().map(|p| p.y).fold(f64::MIN, f64::max);

@@ -71,7 +71,7 @@ fn earth_behind_a_wall_of_courses_has_the_load_factor_of_sums_by_hand() {
         let above = &widths[joint..];
         let h = height - 0.5 * joint as f64;
         let thrust = 0.5 * k * gamma * h * h;
-        let (push, drag) = (thrust * f64::cos(delta), thrust * f64::sin(delta));
+        let (push, drag) = (thrust * libm::cos(delta), thrust * libm::sin(delta));
         let weight: f64 = above.iter().map(|width| 23e3 * 0.5 * width).sum();
         let front = widths[joint];
         let resists: f64 = above.iter().map(|width| 23e3 * 0.5 * width * (front - width / 2.0)).sum();
@@ -145,7 +145,7 @@ fn a_fixed_load_keeps_its_amount_when_the_load_factor_changes() {
     let mut only = loads;
     only[1]["fixed"] = json!(true);
     let options = Options::default().margins(true);
-    let frames = Analysis::with(&scene(on_floor(1.0, 2.0, 9.0, only)), &options).frames;
+    let frames = Analysis::with(scene(on_floor(1.0, 2.0, 9.0, only)), &options).frames;
     assert_eq!(frames[0].margins.as_ref().expect("requested").load_factor, Margin::NotApplicable);
 }
 
@@ -169,7 +169,7 @@ fn a_frame_has_the_results_of_its_worst_case() {
         { "id": "push", "weights": 0.9, "loads": { "push": 1.5 } },
         { "id": "all" }]);
     let options = Options::default().margins(true);
-    let frame = Analysis::with(&with_cases(cases.clone()), &options).frames.remove(0);
+    let frame = Analysis::with(with_cases(cases.clone()), &options).frames.remove(0);
     let found = frame.cases.as_ref().expect("the scene has cases");
     assert_eq!(frame.verdict, Verdict::Stable);
     assert_eq!(found.each[found.governing].id, "push");
@@ -184,7 +184,7 @@ fn a_frame_has_the_results_of_its_worst_case() {
     // One case that falls lets the frame fall.
     let mut falls = cases;
     falls[1]["loads"]["push"] = json!(3.0);
-    let analysis = Analysis::with(&with_cases(falls.clone()), &Options::default());
+    let analysis = Analysis::with(with_cases(falls.clone()), &Options::default());
     assert_eq!(analysis.verdict(), Verdict::Unstable);
     assert_eq!(drystone::analysis::verdicts(&with_cases(falls), &Options::default()), [Verdict::Unstable]);
 }
@@ -266,11 +266,11 @@ impl Earth {
     /// a share of the whole path, and `share` the share of the edge.
     fn on(&self, [a, b]: [[f64; 2]; 2], [from, share]: [f64; 2]) -> [f64; 3] {
         let edge = [b[0] - a[0], b[1] - a[1]];
-        let length = f64::hypot(edge[0], edge[1]);
+        let length = libm::hypot(edge[0], edge[1]);
         let (inward, down) = ([-edge[1] / length, edge[0] / length], f64::signum(-edge[1]));
         let level = edge[1].abs() < 1e-12;
         let drag = if level { 0.0 } else { self.drag };
-        let (sin, cos) = drag.sin_cos();
+        let (sin, cos) = (libm::sin(drag), libm::cos(drag));
         let along = [edge[0] / length * down, edge[1] / length * down];
         let direction = [inward[0] * cos + along[0] * sin, inward[1] * cos + along[1] * sin];
         let mut sum = [0.0; 3];
@@ -342,7 +342,7 @@ fn random_walls_under_pressure_have_the_load_factors_of_sums_over_their_joints()
                 edges.push((owner, [[*right, *high], [next[1], *high]]));
             }
         }
-        let length = |[a, b]: [[f64; 2]; 2]| f64::hypot(b[0] - a[0], b[1] - a[1]);
+        let length = |[a, b]: [[f64; 2]; 2]| libm::hypot(b[0] - a[0], b[1] - a[1]);
         let total: f64 = edges.iter().map(|(_, edge)| length(*edge)).sum();
         let mut pushes = vec![[0.0; 3]; count];
         let mut before = 0.0;

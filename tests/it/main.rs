@@ -72,6 +72,7 @@ mod statics;
 mod strangers;
 mod true_places;
 mod structure;
+mod vehicle;
 mod visible;
 mod wedging;
 mod validation;

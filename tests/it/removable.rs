@@ -82,7 +82,7 @@ fn the_least_help_is_the_least_over_all_directions_and_blocks() {
                 let angle = std::f64::consts::PI * f64::from(k) / 60.0;
                 let mut pushed = rest.clone();
                 pushed["loads"] = json!([{ "block": block, "at": [at.x, at.y],
-                    "force": [force * angle.cos(), force * angle.sin()] }]);
+                    "force": [force * libm::cos(angle), force * libm::sin(angle)] }]);
                 Analysis::new(scene(&pushed)).frames[0].verdict == Verdict::Stable
             })
         };

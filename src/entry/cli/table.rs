@@ -12,7 +12,7 @@ use crate::products::result::Timing;
 use crate::products::wording::number::{duration, letter, quantity, tenths};
 use crate::products::wording::thrust::thrust_range;
 use crate::products::wording::verdict::plain;
-use crate::products::wording::{capacity, case, failure, margin, movement, placement, proof, removable};
+use crate::products::wording::{capacity, case, failure, margin, movement, placement, proof, removable, vehicle};
 use crate::text::heading;
 
 /// The words in the tables and in the lines below them, with their meanings.
@@ -333,6 +333,7 @@ fn remarks(analysis: &Analysis, number: usize, detail: &Detail) -> Vec<String> {
     remarks.extend(moved);
     let rows = frame.removable.iter();
     remarks.extend(rows.map(|rows| format!("removable: {}", removable::phrases(scene, rows).join("; "))));
+    remarks.extend(frame.vehicle.as_ref().map(|influence| format!("vehicle: {}", vehicle::sentence(scene, influence))));
     let carried = frame.capacity.iter();
     remarks.extend(carried.map(|c| format!("capacity: {}", capacity::sentences(scene, frame.verdict, c))));
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));

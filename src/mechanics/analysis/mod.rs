@@ -25,6 +25,7 @@ mod removable;
 mod wedged;
 mod thrust_states;
 mod movement;
+mod vehicle;
 mod sensitivity;
 
 use std::fmt;
@@ -66,6 +67,7 @@ pub use removable::{Help, Removable};
 pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity, Slope};
 pub use thrust_states::{ThrustState, ThrustStates};
 pub use undecided::UndecidedReason;
+pub use vehicle::{Influence, VehiclePosition};
 pub use warm_start::{Source, verdicts};
 pub(crate) use warm_start::{WarmStart, hinges_on_gaps};
 pub use wedged::{FaceCase, PointCase, RuledOut, Wedged};
@@ -186,6 +188,8 @@ pub struct FrameAnalysis {
     pub movements: Vec<SupportMovement>,
     /// Which blocks may leave, in the order of placing, if requested.
     pub removable: Option<Vec<Removable>>,
+    /// The load factor for each position of the vehicle of the scene, if the frame stands.
+    pub vehicle: Option<Influence>,
     /// The forces that a block can carry, if requested and if the block is placed.
     pub capacity: Option<LoadCapacity>,
     /// Whether the frame stands only by a self-stress that its loads do not build up from rest. `None` if not
@@ -237,6 +241,7 @@ impl Analysis {
         capacity::add_capacities(&scene, &interfaces, &mut frames, options);
         movement::add_movements(&scene, &interfaces, &mut frames, options);
         removable::add_removables(&scene, &interfaces, &mut frames, options);
+        vehicle::add_influence(&scene, &interfaces, &mut frames, options);
         let notes = gaps_closed::notes(&scene, &interfaces);
         Analysis { scene, frames, notes, case_scenes: Vec::new() }
     }

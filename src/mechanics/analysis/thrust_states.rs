@@ -126,6 +126,7 @@ impl Analysis {
         let kernel = self.frames[number].margins.as_ref()?.kernel.at()?;
         let mut scene = Scene::clone(&self.scene);
         scene.movements.clear();
+        scene.vehicle = None;
         scene.kernel = (kernel * (1.0 - WITHIN_KERNEL)).clamp(scene.kernel, 1.0);
         let found = Analysis::with(scene, &Options::default()).frames.swap_remove(number);
         let frame = FrameAnalysis { contacts: found.contacts, robots: found.robots, ..self.frames[number].clone() };

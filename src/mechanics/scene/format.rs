@@ -29,7 +29,7 @@ pub use body::{BlockEntry, CircleEntry, ContactEntry, GroundEntry, LimitsEntry, 
 pub(crate) use lines::Lines;
 pub use load::{BlockSide, CaseEntry, DepthEntry, LoadEntry, PressureEntry};
 pub use map::Map;
-pub use question::MovementEntry;
+pub use question::{AxleEntry, MovementEntry, VehicleEntry};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use setting::Setting;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
@@ -96,6 +96,8 @@ entry! {
         cases: Vec<CaseEntry>,
         /// Small movements of parts of the ground. For each, the analysis finds how the structure follows.
         movements: Vec<MovementEntry>,
+        /// A vehicle that travels over the structure. The analysis finds its most dangerous position.
+        vehicle: Option<VehicleEntry>,
         /// Contact tolerance in the length unit of the scene, at least 0: edges at most this far apart touch, and
         /// bodies may overlap by up to this depth. Default: estimated from how the coordinates are written and how
         /// large the scene is.

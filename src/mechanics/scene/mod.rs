@@ -42,7 +42,7 @@ pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
 pub use note::{Note, NoteCode};
 pub use problem::{Code, Place, Problem, SceneError};
-pub use question::Movement;
+pub use question::{Axle, Movement, Vehicle};
 pub use reading::{falling_starter, starter};
 pub use resolution::SketchedBody;
 pub use sketch::{Sketch, Spot};
@@ -99,6 +99,8 @@ pub struct Scene {
     pub(crate) cases: Vec<Case>,
     /// Small movements of parts of the ground.
     pub(crate) movements: Vec<Movement>,
+    /// A vehicle that travels over the structure.
+    pub(crate) vehicle: Option<Vehicle>,
     /// Materials, in the file's order.
     pub(crate) materials: Vec<Material>,
     /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`].
@@ -225,6 +227,11 @@ impl Scene {
     /// Returns the small movements of parts of the ground.
     pub fn movements(&self) -> &[Movement] {
         &self.movements
+    }
+
+    /// Returns the vehicle that travels over the structure, if there is one.
+    pub fn vehicle(&self) -> Option<&Vehicle> {
+        self.vehicle.as_ref()
     }
 
     /// Returns the materials, in the file's order.

@@ -215,7 +215,8 @@ mod tests {
             { "block": "a", "side": "top", "pressure": [1, 2] }, { "between": [[1, 2], [3, 4]], "pressure": 2.5 },
             { "block": "a", "side": "left", "pressure": { "surface": 1, "unit_weight": 2, "coefficient": 3, "friction_angle": 4 } }],
         "cases": [{ "id": "c", "weights": 0.9, "loads": { "l": 1.5 } }],
-        "movements": [{ "ground": "left", "translation": [1, 2], "rotation": 0.1, "about": [0, 0] }], "contact_tolerance": 1e-9,
+        "movements": [{ "ground": "left", "translation": [1, 2], "rotation": 0.1, "about": [0, 0] }],
+        "vehicle": { "axles": [{ "weight": 1, "offset": 2 }], "over": ["a"], "step": 0.5, "both_ways": false }, "contact_tolerance": 1e-9,
         "corner_contacts": true, "steps": [{ "title": "t", "release": ["r"], "remove": ["a"], "place": ["a"],
             "hold": { "r": "a", "q": { "block": "a", "at": [1, 2] } }, "plan": { "r": "a" } }, {}], "silence": ["x"] }"##;
 

@@ -147,6 +147,7 @@ impl<'f> Resolution<'f> {
         let loads = self.loads(findings, &names.blocks, &ground, &blocks);
         let cases = self.cases(findings);
         let movements = self.movements(findings, &ground);
+        let vehicle = self.vehicle(findings, &names.blocks);
         let mut frames = self.frames(findings, &names, &robots, &centroids);
         for frame in &mut frames {
             frame.expected = frame.expected.or(self.file.expect);
@@ -174,6 +175,7 @@ impl<'f> Resolution<'f> {
             loads,
             cases,
             movements,
+            vehicle,
             materials: materials.map(|m| Material { name: m.0.clone() }).collect(),
             friction_pairs,
             // A listed contact is a single point, so it transmits force in the same way as a corner contact.

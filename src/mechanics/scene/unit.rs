@@ -157,6 +157,13 @@ pub(super) fn to_si(scene: &mut Scene) {
         movement.translation *= length;
         movement.about = Point::from(movement.about.coords * length);
     }
+    if let Some(vehicle) = &mut scene.vehicle {
+        vehicle.step *= length;
+        for axle in &mut vehicle.axles {
+            axle.weight *= force;
+            axle.offset *= length;
+        }
+    }
     for penetration in &mut scene.penetrations {
         penetration.depth *= length;
     }

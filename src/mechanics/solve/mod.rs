@@ -52,7 +52,8 @@ pub use force_polygon::{ForcePolygon, force_polygon};
 pub use least_adhesion::{least_adhesion, least_adhesion_in};
 pub use least_residual::{any_balance, least_residual};
 pub use limit::{
-    ExtremeValue, Limit, LimitState, Support, largest_factor, least_grip_limit, limit_state, nearest_factor, support,
+    ExtremeValue, Limit, LimitState, Support, largest_factor, largest_factor_fast, least_grip_limit, limit_state,
+    nearest_factor, support,
 };
 pub use rebalance_blocks::{rebalance_absolute, rebalance_relative};
 pub use repair_motion::repair_motion;

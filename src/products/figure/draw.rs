@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::influence;
 use super::kind::Kind;
 use super::option::Options;
 use super::sheet;
@@ -65,6 +66,9 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
 /// Units: all times are in seconds.
 pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) -> Vec<(Drawing, f64)> {
     let options = kind.options(&analysis.scene, options);
+    if kind == Kind::Influence {
+        return influence::film(analysis, &options, seconds);
+    }
     if !kind.about().needs_elementary_mechanisms {
         let pages = frame_pages(analysis, kind, &options, &all_frames(analysis)).into_iter();
         return pages.map(|page| (page, seconds)).collect();

@@ -6,6 +6,7 @@ use super::capacity::CarriedForces;
 use super::compare::Comparison;
 use super::flow::ForceFlow;
 use super::freebody::FreeBody;
+use super::influence::InfluenceLine;
 use super::joint_forces::{self, JointForces, about_build};
 use super::kernel::Kernel;
 use super::margin::CollapseMargin;
@@ -78,11 +79,14 @@ pub enum Kind {
     Movement,
     /// Which blocks may leave: without help, while a robot holds another block, or not.
     Removable,
+    /// The load factor for each position of a vehicle as a line above the structure, the governing position, and how the
+    /// structure falls there. An animation drives over the structure.
+    Influence,
 }
 
 impl Kind {
     /// All kinds, in the order in which the help text lists them.
-    pub const ALL: [Kind; 17] = [
+    pub const ALL: [Kind; 18] = [
         Kind::Forces,
         Kind::Flow,
         Kind::Mechanism,
@@ -100,6 +104,7 @@ impl Kind {
         Kind::Placement,
         Kind::Movement,
         Kind::Removable,
+        Kind::Influence,
     ];
 
     /// Returns what draws a figure of this kind.
@@ -122,6 +127,7 @@ impl Kind {
             Kind::Placement => &PlacementTolerance,
             Kind::Movement => &MovedSupport,
             Kind::Removable => &RemovableBlocks,
+            Kind::Influence => &InfluenceLine,
         }
     }
 

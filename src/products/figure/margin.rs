@@ -85,7 +85,7 @@ fn parameter(toward: Toward) -> Parameter {
 }
 
 /// Draws the outlines of the blocks in their displaced positions.
-fn ghosts(canvas: &mut Canvas<'_>, fall: &Fall<'_>) {
+pub(super) fn ghosts(canvas: &mut Canvas<'_>, fall: &Fall<'_>) {
     let unit = unit(fall.scene, canvas.options.zoom);
     let course = &canvas.own().courses.get_or_init(|| vec![Course::new(fall, unit)])[0];
     let edge = Stroke::new(moved_edge(canvas.theme()), canvas.mm(0.24)).dashed([canvas.mm(0.9), canvas.mm(0.65)]);

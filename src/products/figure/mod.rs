@@ -27,6 +27,7 @@ mod funicular;
 mod gallery;
 mod gives;
 mod joint_forces;
+mod influence;
 mod kernel;
 mod kind;
 mod margin;

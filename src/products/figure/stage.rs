@@ -258,11 +258,11 @@ fn acts_inside(canvas: &Canvas<'_>, load: &Load) -> bool {
     deep && polygon.contains(load.at)
 }
 
-fn load_size(canvas: &Canvas<'_>) -> ArrowSize {
+pub(super) fn load_size(canvas: &Canvas<'_>) -> ArrowSize {
     ArrowSize { length: 0.0, shaft: canvas.mm(0.85), head: (canvas.mm(1.9), canvas.mm(1.7)) }
 }
 
-fn hollow(canvas: &Canvas<'_>, outline: Outline, ink: Colour) -> Path {
+pub(super) fn hollow(canvas: &Canvas<'_>, outline: Outline, ink: Colour) -> Path {
     Path::filled(outline, canvas.theme().page).with_stroke(Stroke::new(ink, canvas.mm(0.32)).mitred())
 }
 

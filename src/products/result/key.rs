@@ -482,6 +482,20 @@ pub static KEYS: &[Key] = &[
                 key("force", Number, "least force of the robot").unit("N"),
             ]),
         ]),
+        key("vehicle", Object, "influence line of the vehicle: the largest load factor for each of its positions").when("if the scene has a `vehicle` and the frame stands").of(&[
+            key("governing", Count, "index in `positions`, from 0, of the position with the least factor").when("if some factor is limited"),
+            key("mechanism", Motions, "motion just beyond this factor"),
+            key("positions", Objects, "positions that were analysed, in the order of travel").of(&[
+                key("at", Number, "coordinate of the first axle: x if gravity points downwards").unit("m"),
+                key("toward", Word(&["right", "left"]), "direction of travel"),
+                key("factor", Bound, "largest factor on the weight of the vehicle and on all listed loads with which the frame is proved to stand"),
+                key("axles", Objects, "axles on the structure").of(&[
+                    key("axle", Count, "index of the axle, from 0"),
+                    key("block", Text, "block below the axle"),
+                    key("at", Pair, "point at which it stands").unit("m"),
+                ]),
+            ]),
+        ]),
         key("only_by_wedging", FlagOrOpen, "whether the frame stands only because blocks press on each other although no load presses them together; null if this could not be decided, and `effects` then gives the reason").when("with `--wedging`, if the frame stands"),
         key("wedging", Object, "proof that the frame stands only by wedging").when("with `--wedging`, if `only_by_wedging` is `true`").of(&[
             key("must_press", Objects, "interfaces that open or slide if the springs give way; in every balance, their normal forces sum to at least `normal_force_at_least`, if a bound was found").of(&[
@@ -516,7 +530,7 @@ pub static KEYS: &[Key] = &[
             ]),
         ]),
         key("effects", Objects, "effects that were considered for this frame").of(&[
-            key("effect", Text, "`weight`, `contact`, `friction`, `kernel`, `robots`, `robot torque`, `loads`, `corner contacts`, `sticking`, `mechanism`, `margins` or `wedging`; with `--placement` also `placement`, and with movements of supports also `movements`"),
+            key("effect", Text, "`weight`, `contact`, `friction`, `kernel`, `robots`, `robot torque`, `loads`, `corner contacts`, `sticking`, `mechanism`, `margins` or `wedging`; with `--placement` also `placement`, with movements of supports also `movements`, and with a vehicle also `vehicle`"),
             key("simulated", Flag, "whether it was simulated"),
             key("why", Text, "reason"),
             key("unknowns", Count, "number of unknowns that the effect adds, or would have added"),

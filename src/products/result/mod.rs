@@ -25,6 +25,7 @@ mod refusal;
 mod placement;
 mod removable;
 mod sensitivity;
+mod vehicle;
 mod wedging;
 
 use serde::{Serialize, Serializer};
@@ -50,6 +51,7 @@ pub use refusal::{problem_line, refusal};
 pub(crate) use refusal::{problem_list, remark_list};
 use removable::Removable;
 use sensitivity::Sensitivity;
+use vehicle::Vehicle;
 use wedging::Wedging;
 
 use crate::geometry::{Point, Vector};
@@ -210,6 +212,8 @@ struct Frame<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     removable: Option<Vec<Removable<'a>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    vehicle: Option<Vehicle<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     capacity: Option<Capacity<'a>>,
     /// `Some(None)`, written as `null`, if it was requested but could not be decided.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -331,6 +335,7 @@ impl<'a> Frame<'a> {
             envelope: cases.iter().flat_map(|cases| cases.envelope.iter().enumerate()).map(Envelope::new).collect(),
             movements: frame.movements.iter().map(|m| Movement::new(scene, m)).collect(),
             removable: frame.removable.as_ref().map(|rows| Removable::list(scene, rows)),
+            vehicle: frame.vehicle.as_ref().map(|influence| Vehicle::new(scene, influence)),
             capacity: frame.capacity.as_ref().map(|c| Capacity::new(scene, c)),
             only_by_wedging: is_simulated(frame, EffectName::Wedging).then_some(frame.only_by_wedging),
             wedging: (frame.wedged.as_ref()).map(|w| Wedging::new(scene, frame, w)),

@@ -17,4 +17,5 @@ pub mod proof;
 pub mod sensitivity;
 #[cfg(any(feature = "report", feature = "cli"))]
 pub mod thrust;
+pub mod vehicle;
 pub mod verdict;

@@ -16,9 +16,9 @@ use super::interval::{End, Exclusion, Interval, RobotIntervals};
 use super::search::{CONFIRMATION_TOL, END_TOL, ExcludedRange, MAX_STEPS, MAX_VALUE, OFFSET_GROWTH, Path, Predictor};
 use super::trial::{LimitChange, Setting, Trial};
 use crate::mechanics::analysis::Verdict;
-use crate::mechanics::program::Scale;
+use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::Motion;
-use crate::mechanics::solve::{Limit, largest_factor, least_grip_limit, nearest_factor};
+use crate::mechanics::solve::{ExtremeValue, Limit, largest_factor, least_grip_limit, nearest_factor};
 
 /// A value at which the component stands.
 struct Start {
@@ -55,7 +55,7 @@ pub(super) fn linear(
             Some(hint) => line.end(trial, start.value, outward, Some(hint)),
             None => {
                 let base = stands.then_some(present);
-                end(trial, line, start.value, outward, base, alone)
+                end(trial, line, start.value, outward, base, alone, largest_factor)
             }
         }
     });
@@ -95,14 +95,15 @@ fn nearest_start(trial: &mut Trial, line: &Path, present: f64) -> Result<Start, 
 }
 
 /// Finds the end of the interval in the direction `outward` from `start`, a value at which the component stands. `base`
-/// is the current value if the component stands there, otherwise `None`.
-fn end(
+/// is the current value if the component stands there, otherwise `None`. `largest_factor` solves the linear program.
+pub(super) fn end(
     trial: &mut Trial,
     line: &Path,
     start: f64,
     outward: f64,
     base: Option<f64>,
     alone: &dyn Fn(f64) -> Setting,
+    largest_factor: fn(&Program, &[f64]) -> ExtremeValue,
 ) -> End {
     // If the component stands at the smallest possible value, the interval ends there. This needs no linear program.
     if outward < 0.0 && line.min_value.is_finite() && trial.decide(&(line.setting)(line.min_value)).0 == Verdict::Stable

@@ -37,6 +37,7 @@ pub use interval::Exclusion;
 pub use interval::{End, Interval, Intervals, RobotIntervals};
 pub use kind::{MarginKind, MarginKinds};
 pub use margins::{Margin, Margins, RobotMargins, Sides};
+pub(super) use parameter::largest_load_factor;
 use trial::Trial;
 pub use trial::trials;
 

@@ -1,14 +1,17 @@
 //! Computes the interval of values at which a component stands, for each parameter: friction, tilt, loads, kernel,
 //! robot limits.
 
-use super::interval::Interval;
+use super::interval::{End, Interval};
 use super::kind::{MarginKind, MarginKinds};
-use super::linear::{linear, robots};
+use super::linear::{end, linear, robots};
 use super::margins::Margins;
 use super::search::{Path, Predictor};
 use super::threshold::threshold;
 use super::trial::{LimitChange, Setting, Trial};
 use super::{ComponentIntervals, tilt};
+use crate::mechanics::proof::Forces;
+use crate::mechanics::solve::largest_factor_fast;
+use crate::mechanics::statics::assembly::Assembly;
 
 /// Returns the intervals of all requested parameters of a component. `stands` is true if the unchanged component
 /// stands. `with_tilt` is true if the tilt is requested and the whole frame stands; only then are the tilts around 0
@@ -63,7 +66,8 @@ fn horizontal_load(trial: &mut Trial, stands: bool) -> Interval {
     linear(trial, &line, 0.0, stands, &alone)
 }
 
-fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
+/// Calls `work` with the line of the load factor, and with the function that leaves only the loads that grow with it.
+fn along_load_factor<T>(trial: &mut Trial, work: impl FnOnce(&mut Trial, &Path, &dyn Fn(f64) -> Setting) -> T) -> T {
     let line = Path {
         predictor: Predictor::Plane,
         setting: &|factor| Setting { loads: factor, ..Setting::default() },
@@ -80,5 +84,17 @@ fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
         limits: LimitChange::FiniteToZero,
         ..Setting::default()
     };
-    linear(trial, &line, 1.0, stands, &alone)
+    work(trial, &line, &alone)
+}
+
+fn load_factor(trial: &mut Trial, stands: bool) -> Interval {
+    along_load_factor(trial, |trial, line, alone| linear(trial, line, 1.0, stands, alone))
+}
+
+/// Returns the largest load factor with which a component stands. `unloaded` balance it with a load factor of 0.
+pub(in crate::mechanics::analysis) fn largest_load_factor(component: &Assembly, unloaded: &Forces) -> End {
+    let mut trial = Trial::new(component, Some(unloaded));
+    along_load_factor(&mut trial, |trial, line, alone| {
+        end(trial, line, 0.0, 1.0, Some(0.0), alone, largest_factor_fast)
+    })
 }

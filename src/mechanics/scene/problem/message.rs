@@ -50,6 +50,10 @@ pub(in crate::mechanics::scene) fn no_movement() -> Wording {
     new_wording(Code::OutOfRange, "the movement is zero", "give a `translation` [x, y] or a `rotation` in degrees")
 }
 
+pub(in crate::mechanics::scene) fn no_axles() -> Wording {
+    new_wording(Code::OutOfRange, "the vehicle has no axle", "give each axle a `weight` and an `offset`")
+}
+
 pub(in crate::mechanics::scene) fn built_in_shape(name: &str) -> Wording {
     new_wording(Code::ReservedName, format!("`{name}` is the name of a built-in shape"), "give the shape another name")
 }

@@ -1,4 +1,4 @@
-//! Resolves the questions of a file: the movements of parts of the ground.
+//! Resolves the questions of a file: the movements of parts of the ground, and a vehicle.
 
 use std::collections::BTreeMap;
 
@@ -6,8 +6,8 @@ use super::Resolution;
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::finding::Findings;
 use crate::mechanics::scene::name::Names;
-use crate::mechanics::scene::number::{is_amount, is_sane};
-use crate::mechanics::scene::{Ground, Movement, problem};
+use crate::mechanics::scene::number::{at_least_zero, is_amount, is_sane};
+use crate::mechanics::scene::{Axle, BlockId, Ground, Movement, Vehicle, problem};
 use crate::read::Trail;
 
 impl Resolution<'_> {
@@ -69,5 +69,28 @@ impl Resolution<'_> {
             });
         }
         movements
+    }
+
+    pub(super) fn vehicle(&self, findings: &mut Findings, blocks: &Names<'_>) -> Option<Vehicle> {
+        let entry = self.file.vehicle.as_ref()?;
+        let top = Trail::Top;
+        let at = top.key("vehicle");
+        let list = at.key("axles");
+        if entry.axles.is_empty() {
+            findings.add(&list, problem::message::no_axles());
+        }
+        let mut axles = Vec::new();
+        for (i, axle) in entry.axles.iter().enumerate() {
+            let inner = list.index(i);
+            let weight = at_least_zero(findings, &inner, "weight", Some(axle.weight)).unwrap_or(0.0);
+            let offset = axle.offset.unwrap_or(0.0);
+            is_sane(findings, &inner.key("offset"), &[offset]);
+            axles.push(Axle { weight, offset });
+        }
+        let names = at.key("over");
+        let over = entry.over.iter().enumerate();
+        let over = over.filter_map(|(i, name)| blocks.find(findings, &names.index(i), name).map(BlockId)).collect();
+        let step = at_least_zero(findings, &at, "step", entry.step).unwrap_or(0.0);
+        Some(Vehicle { axles, over, step, both_ways: entry.both_ways.unwrap_or(true) })
     }
 }

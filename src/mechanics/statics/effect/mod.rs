@@ -22,6 +22,7 @@ pub mod placement;
 mod robot;
 mod robot_torque;
 pub mod sticking;
+pub mod vehicle;
 pub mod wedging;
 mod weight;
 
@@ -64,6 +65,8 @@ pub enum EffectName {
     Placement,
     /// How the structure follows a support that moves. Reported only if the scene lists movements.
     Movements,
+    /// The load factor for each position of a vehicle. Reported only if the scene has a vehicle.
+    Vehicle,
 }
 
 impl EffectName {
@@ -84,6 +87,7 @@ impl EffectName {
             EffectName::Wedging => "wedging",
             EffectName::Placement => "placement",
             EffectName::Movements => "movements",
+            EffectName::Vehicle => "vehicle",
         }
     }
 
@@ -104,6 +108,7 @@ impl EffectName {
             EffectName::Wedging => "whether it stands only by a self-stress that its loads do not build up",
             EffectName::Placement => "how far blocks may be off their places before the verdict changes",
             EffectName::Movements => "how the structure cracks and which force it exerts if a support moves a little",
+            EffectName::Vehicle => "the load factor for each position of a vehicle that travels over the structure",
         }
     }
 }

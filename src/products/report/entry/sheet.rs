@@ -14,7 +14,7 @@ use crate::products::wording::margin::headline;
 use crate::products::wording::number::letter;
 use crate::products::wording::thrust::thrust_range;
 use crate::products::wording::verdict::plain;
-use crate::products::wording::{case, movement, placement, proof, removable, verdict};
+use crate::products::wording::{case, movement, placement, proof, removable, vehicle, verdict};
 use crate::text::line;
 
 /// Width of a figure of the whole page, pixels, the height of its picture, and that of the outline on the first page.
@@ -235,6 +235,10 @@ fn figures(
     if found.movements.iter().any(|moved| matches!(moved.outcome, MovementOutcome::Follows(_))) {
         kinds.push((Kind::Movement, None, "How the structure cracks as its support moves, enlarged."));
     }
+    if found.vehicle.is_some() {
+        let caption = "The load factor for each position of the vehicle, and the governing position.";
+        kinds.push((Kind::Influence, None, caption));
+    }
     let wide = is_wide(scene, number);
     let mut figures = Vec::new();
     for (kind, toward, caption) in kinds {
@@ -318,6 +322,8 @@ fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
 /// wedging, if the test was made and did not show that the structure stands without wedging, and the notices of the
 /// analysis.
 fn remarks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
+    let influence = frame_analysis.vehicle.as_ref();
+    let influence = influence.map(|own| format!("Vehicle: {}.", line(&vehicle::sentence(scene, own))));
     let placement = frame_analysis.placement.as_ref();
     let placement = placement.map(|p| format!("Placement: {}.", line(&placement::sentence(scene, frame_analysis, p))));
     let rows = frame_analysis.removable.iter();
@@ -329,5 +335,5 @@ fn remarks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
         .filter(|_| frame_analysis.only_by_wedging != Some(false));
     let wedging = wedging.map(|w| format!("Wedging: {}.", line(&w.why)));
     let notices = frame_analysis.notices.iter().map(|n| format!("Note: {}.", line(n)));
-    placement.into_iter().chain(rows).chain(wedging).chain(notices).collect()
+    influence.into_iter().chain(placement).chain(rows).chain(wedging).chain(notices).collect()
 }

@@ -1,0 +1,209 @@
+//! [`Influence`]: the largest load factor for each position of a vehicle that travels over a structure.
+//!
+//! The axles are loads along gravity on the tops of the blocks. While every axle stays on the same edge, the loads are linear
+//! in the position x. The loads that the frame carries form a convex set, so 1/λ(x) is convex there, and the least factor λ
+//! is reached with an axle at an end of an edge. Without a step, these are the positions that are analysed: the least
+//! factor is then that of every position in between, too.
+//!
+//! All positions share the interfaces, the components and the forces of the unloaded frame. Each position needs one
+//! linear program; its forces and its mechanism prove the factor like that of a margin.
+
+use super::decide::decided_forces;
+use super::margin::{End, largest_load_factor};
+use super::{FrameAnalysis, Motion, Options, Verdict};
+use crate::geometry::{Edge, Point, Vector, quarter_turn};
+use crate::mechanics::proof::Forces;
+use crate::mechanics::scene::{BlockId, Frame, Scene, Vehicle};
+use crate::mechanics::solve::DeadlineGuard;
+use crate::mechanics::statics::assembly::{Assembly, load_about};
+use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::interface::Interfaces;
+
+/// More positions than this are not analysed.
+const MAX_POSITIONS: usize = 5000;
+/// Two ends of edges this close to each other, relative to the length of the track, are one point.
+const SAME_PLACE: f64 = 1e-9;
+
+/// Factors this close to each other, relative to their size, are equal up to the accuracy of a margin.
+const SAME_FACTOR: f64 = 1e-6;
+
+/// The largest load factor for each position of a vehicle. The factor multiplies the weight of the vehicle and all listed
+/// loads, like the load factor of a margin.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Influence {
+    /// The positions, in the order of travel: first to the right, then to the left.
+    pub positions: Vec<VehiclePosition>,
+    /// The index of the position with the least factor; `None` if no factor is limited.
+    pub governing: Option<usize>,
+    /// How the structure begins to fall at this position, just beyond the factor.
+    pub mechanism: Vec<Motion>,
+}
+
+/// A position of a vehicle.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct VehiclePosition {
+    /// The coordinate of the first axle, metres: x if gravity points downwards.
+    pub at: f64,
+    /// Whether the vehicle travels to the right.
+    pub to_right: bool,
+    /// Each axle on the structure: its index, the block below it, and the point at which it stands.
+    pub axles: Vec<(usize, BlockId, Point)>,
+    /// The largest factor with which the frame is proved to stand; `None` if it may grow without limit.
+    pub factor: Option<f64>,
+}
+
+/// Computes the influence line of the vehicle for each frame that stands, unless `options` request only the verdict.
+pub(super) fn add_influence(scene: &Scene, interfaces: &Interfaces, frames: &mut [FrameAnalysis], options: &Options) {
+    let Some(vehicle) = scene.vehicle.as_ref().filter(|_| !options.verdict_only) else { return };
+    let _until = DeadlineGuard::new(options.deadline);
+    for (frame, found) in scene.frames.iter().zip(frames) {
+        let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(scene, frame) };
+        let stands = found.verdict == Verdict::Stable;
+        found.vehicle = if stands { influence(&context, vehicle) } else { None };
+        let positions = found.vehicle.as_ref().map(|influence| influence.positions.len());
+        found.effects.push(effect::vehicle::report(stands, positions));
+    }
+}
+
+/// Returns the influence line of a frame. `None` if it does not stand without its loads, if no position is on the track,
+/// or if there are too many positions.
+fn influence(context: &FrameContext, vehicle: &Vehicle) -> Option<Influence> {
+    let scene = context.scene;
+    let components = effect::assemble(context).0.components();
+    let unloaded = components.iter().map(|own| Some(decided_forces(&own.clone().with_load_factor(0.0))?.0));
+    let unloaded: Vec<Forces> = unloaded.collect::<Option<_>>()?;
+    let track = track(scene, context.frame, vehicle);
+    let mut positions = positions(scene, vehicle, &track)?;
+    // Without an axle, a component has the same factor at every position.
+    let pairs = || components.iter().zip(&unloaded);
+    let present: Vec<End> = pairs().map(|(own, forces)| largest_load_factor(own, forces)).collect();
+    let (mut governing, mut mechanism) = (None, Vec::new());
+    for (number, position) in positions.iter_mut().enumerate() {
+        for ((component, forces), present) in pairs().zip(&present) {
+            let loaded = with_axles(scene, component, vehicle, position);
+            let own = loaded.map_or_else(|| present.clone(), |loaded| largest_load_factor(&loaded, forces));
+            let (factor, motion) = match own {
+                End::Unbounded => continue,
+                End::At { value, mechanism } => (value, mechanism),
+                End::Unconfirmed { stands, .. } => (stands, Vec::new()),
+            };
+            position.factor = Some(position.factor.map_or(factor, |least| least.min(factor)));
+            // Of equal factors, such as those of a symmetric structure, the first governs.
+            let least =
+                governing.and_then(|least: (usize, f64)| (least.1 <= factor * (1.0 + SAME_FACTOR)).then_some(least));
+            if least.is_none() {
+                (governing, mechanism) = (Some((number, factor)), motion);
+            }
+        }
+    }
+    Some(Influence { positions, governing: governing.map(|least| least.0), mechanism })
+}
+
+/// Returns a component with the axles on its blocks; `None` if no axle stands on them.
+fn with_axles(scene: &Scene, component: &Assembly, vehicle: &Vehicle, position: &VehiclePosition) -> Option<Assembly> {
+    let body_of = |block: BlockId| component.bodies.binary_search_by_key(&block, |body| body.block).ok();
+    let mut loaded: Option<Assembly> = None;
+    for (axle, block, at) in &position.axles {
+        if let Some(number) = body_of(*block) {
+            let body = &mut loaded.get_or_insert_with(|| component.clone()).bodies[number];
+            let load = load_about(body.centroid, *at, scene.down() * vehicle.axles[*axle].weight, 0.0);
+            body.listed = body.listed.plus(load);
+        }
+    }
+    loaded
+}
+
+/// A part of the track: an edge of a block between two coordinates.
+#[derive(Clone, Copy, Debug)]
+struct Top {
+    from: f64,
+    to: f64,
+    block: BlockId,
+    edge: Edge,
+}
+
+/// Returns the edges that are seen from above among the blocks of the vehicle, from left to right.
+fn track(scene: &Scene, frame: &Frame, vehicle: &Vehicle) -> Vec<Top> {
+    let across = quarter_turn(scene.down());
+    let place = |point: Point| across.dot(&point.coords);
+    let is_named = |block: &&BlockId| vehicle.over.is_empty() || vehicle.over.contains(block);
+    let mut edges: Vec<Top> = Vec::new();
+    for block in frame.placed.iter().filter(is_named) {
+        // The stone is on the left of an edge, so the edges that are seen from above run to the left.
+        let of_block = scene.blocks[block.0].body.polygon.edges();
+        let tops = of_block.map(|edge| Top { from: place(edge.to), to: place(edge.from), block: *block, edge });
+        edges.extend(tops.filter(|top| top.from < top.to));
+    }
+    edges.sort_by(|a, b| a.from.total_cmp(&b.from));
+    let mut places: Vec<f64> = edges.iter().flat_map(|top| [top.from, top.to]).collect();
+    places.sort_by(f64::total_cmp);
+    let length = places.last().zip(places.first()).map_or(0.0, |(last, first)| last - first);
+    places.dedup_by(|b, a| *b - *a <= SAME_PLACE * length);
+    let (mut track, mut open, mut next): (Vec<Top>, Vec<Top>, usize) = (Vec::new(), Vec::new(), 0);
+    for ends in places.windows(2) {
+        let middle = 0.5 * (ends[0] + ends[1]);
+        while next < edges.len() && edges[next].from < middle {
+            open.push(edges[next]);
+            next += 1;
+        }
+        open.retain(|top| top.to > middle);
+        let height = |top: &Top| -scene.down().dot(&top.point(across, middle).coords);
+        let Some(highest) = open.iter().max_by(|a, b| height(a).total_cmp(&height(b))) else { continue };
+        match track.last_mut() {
+            Some(last) if last.edge == highest.edge && last.to == ends[0] => last.to = ends[1],
+            _ => track.push(Top { from: ends[0], to: ends[1], ..*highest }),
+        }
+    }
+    track
+}
+
+impl Top {
+    /// Returns the point of the edge at a coordinate along `across`.
+    fn point(&self, across: Vector, at: f64) -> Point {
+        let long = self.edge.to - self.edge.from;
+        self.edge.from + long * ((at - across.dot(&self.edge.from.coords)) / across.dot(&long))
+    }
+}
+
+/// Returns the positions of a vehicle that are analysed; `None` if there are none or too many.
+fn positions(scene: &Scene, vehicle: &Vehicle, track: &[Top]) -> Option<Vec<VehiclePosition>> {
+    let (first, last) = (track.first()?.from, track.last()?.to);
+    let across = quarter_turn(scene.down());
+    let mut positions = Vec::new();
+    for to_right in [true, false] {
+        let behind = if to_right { 1.0 } else { -1.0 };
+        if !to_right && (!vehicle.both_ways || vehicle.axles.len() < 2) {
+            continue;
+        }
+        let offsets = vehicle.axles.iter().map(|axle| behind * axle.offset);
+        // Each place with the side on which an axle at an end of an edge stands: -1 to the left, 1 to the right.
+        let mut places: Vec<(f64, f64)> = if vehicle.step > 0.0 {
+            let [least, most] = [f64::min, f64::max].map(|of| offsets.clone().fold(0.0, of));
+            let count = ((last + most - first - least) / vehicle.step) as usize;
+            (0..=count.min(MAX_POSITIONS)).map(|k| (first + least + k as f64 * vehicle.step, 1.0)).collect()
+        } else {
+            let ends = track.iter().flat_map(|top| [(top.from, 1.0), (top.to, -1.0)]);
+            let ends: Vec<(f64, f64)> = ends.collect();
+            offsets.flat_map(|offset| ends.iter().map(move |(end, side)| (end + offset, *side))).collect()
+        };
+        places.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        places.dedup();
+        if !to_right {
+            places.reverse();
+        }
+        positions.extend(places.into_iter().map(|(at, side)| {
+            let axles = vehicle.axles.iter().enumerate();
+            let axles = axles.filter_map(|(number, axle)| {
+                let place = at - behind * axle.offset + side * SAME_PLACE * (last - first);
+                let top = track[..track.partition_point(|top| top.from <= place)].last()?;
+                let inside = (at - behind * axle.offset).clamp(top.from, top.to);
+                (place <= top.to).then(|| (number, top.block, top.point(across, inside)))
+            });
+            VehiclePosition { at, to_right, axles: axles.collect(), factor: None }
+        }));
+    }
+    positions.retain(|position: &VehiclePosition| !position.axles.is_empty());
+    (!positions.is_empty() && positions.len() <= MAX_POSITIONS).then_some(positions)
+}
