@@ -45,7 +45,8 @@ def load(body, index, frame):
         area = 3 * sum(a for a, _, _ in parts)
         centre = sum(a * x for a, x, _ in parts) / area, sum(a * y for a, _, y in parts) / area
     total = wrench([g * F(body["weight"]) for g in vec(frame["gravity"])], centre)
-    items = [(item, F(frame.get("load_factor", 1))) for item in body.get("loads", [])]
+    factor = F(frame.get("load_factor", 1))
+    items = [(item, 1 if item.get("fixed") else factor) for item in body.get("loads", [])]
     further = frame.get("force")
     for item, factor in items + ([(further[1], 1)] if further and further[0] == index else []):
         add(total, wrench(vec(item["force"]), vec(item["at"])), factor)

@@ -168,6 +168,23 @@ fn random_hard_scenes_are_exact_for_both_checkers() {
     }
 }
 
+/// A push of 4 kN that is fixed, and one of 1 kN that the load factor multiplies, on a block of 88 kN.
+#[test]
+fn certificates_keep_fixed_loads_at_every_load_factor() {
+    let text = r#"{ "drystone": 1, "friction": 2, "ground": [{ "polygon": [[-9, 0], [9, 0], [9, -1], [-9, -1]] }],
+        "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 2], [0, 2]], "weight": 88000 }],
+        "loads": [{ "block": "a", "force": [4000, 0], "at": [0, 1], "fixed": true },
+                  { "block": "a", "force": [1000, 0], "at": [0, 2] }] }"#;
+    let options = Options::default().margins(true);
+    let certificate = certificate(&Scene::from_json(text).expect("a scene"), &options);
+    let checked = certificate.check().expect("a structure");
+    assert!(proved(&checked).iter().all(|proved| *proved), "{checked:?}");
+    assert!(certificate.limits.iter().any(|limit| limit.of.starts_with("load_factor high")), "a limit of the loads");
+    let texts = [certificate.to_json()];
+    let Some(pages) = by_python(&texts) else { return };
+    assert!(proved_by_python(&pages[0]).iter().all(|proved| *proved), "{:#?}", pages[0]);
+}
+
 /// A log in a groove, which stands, and three logs that slide apart.
 #[test]
 fn certificates_of_circles_are_exact_and_need_every_contact() {

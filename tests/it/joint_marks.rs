@@ -67,8 +67,8 @@ fn every_mark_lies_at_its_joint_and_names_its_bodies() {
             assert_eq!(at.len(), joints.len(), "{name}: every force has a mark");
             for joint in joints {
                 let bodies = joint.interface.bodies.map(|body| match body {
-                    BodyId::Ground(_) => "the ground".to_owned(),
-                    BodyId::Block(block) => scene.blocks()[block.0].id.clone(),
+                    BodyId::Ground(_) if scene.name(body) == "ground" => "the ground".to_owned(),
+                    _ => scene.name(body).to_owned(),
                 });
                 let title = format!("Force between {} and {}: ", bodies[0], bodies[1]);
                 let distance = |(_, at, camera): &&(String, PagePoint, Camera)| {

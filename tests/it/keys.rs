@@ -90,7 +90,7 @@ fn each_option_leaves_out_only_the_part_that_it_names() {
     let look = || Options::default().theme(Theme::thesis());
     let full = words_of(&look());
     let has = |all: &[String], words: &str| all.iter().any(|s| s.contains(words));
-    let signs = ["A lintel, and", "(b) The crane", "verdict", "share a colour"];
+    let signs = ["A lintel, and", "(b) The crane", "verdict", "one colour per block"];
     assert!(signs.iter().all(|words| has(&full, words)), "{full:?}");
     let less = [look().titles(false), look().captions(false), look().verdicts(false), look().keys(false)];
     for (number, options) in less.iter().enumerate() {

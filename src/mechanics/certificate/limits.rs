@@ -106,7 +106,7 @@ impl Limits<'_> {
         let far = capacity.rays.iter().sum::<Vector>() * size;
         let middle = corners.iter().sum::<Vector>() / corners.len() as f64 + far;
         let loaded = |force: Vector, torque: f64| {
-            let load = LoadForm { force: [force.x, force.y], at: [at.x, at.y], torque };
+            let load = LoadForm { force: [force.x, force.y], at: [at.x, at.y], torque, fixed: false };
             let mut changed = self.assembly.clone();
             let own = &mut changed.bodies[body];
             own.load = own.load.plus(load_about(own.centroid, at, force, torque));

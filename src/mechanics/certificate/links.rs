@@ -20,7 +20,7 @@ impl Certificate {
             wrench.moment += exact(load.torque);
             sum = sum.plus(&wrench.times(&exact(factor)));
         };
-        body.loads.iter().for_each(|load| add(load, frame.load_factor));
+        body.loads.iter().for_each(|load| add(load, if load.fixed { 1.0 } else { frame.load_factor }));
         if let Some((_, load)) = frame.force.as_ref().filter(|(body, _)| *body == index) {
             add(load, 1.0);
         }

@@ -206,7 +206,12 @@ fn bodies(scene: &Scene) -> Vec<BodyForm> {
             weight: block.weight,
             centre,
             loads: loads
-                .map(|load| LoadForm { force: [load.force.x, load.force.y], at: pair(load.at), torque: load.torque })
+                .map(|load| LoadForm {
+                    force: [load.force.x, load.force.y],
+                    at: pair(load.at),
+                    torque: load.torque,
+                    fixed: load.is_fixed,
+                })
                 .collect(),
             ..form(BodyId::Block(id), &block.id)
         }

@@ -108,6 +108,9 @@ pub struct LoadForm {
     pub at: Pair,
     /// The torque, N·m, anticlockwise positive.
     pub torque: f64,
+    /// Whether the load factor does not multiply the load.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub fixed: bool,
 }
 
 /// One frame: what is placed, what touches, and the proof.

@@ -72,10 +72,13 @@ impl<'a> Motion<'a> {
 impl<'a> Interface<'a> {
     pub(super) fn new(scene: &'a Scene, contact: &Contact) -> Interface<'a> {
         let interface = &contact.interface;
-        let is_round = interface.bodies.iter().any(|body| scene.body(*body).circle.is_some());
+        let word = || {
+            let is_round = interface.bodies.iter().any(|body| scene.body(*body).circle.is_some());
+            if is_round { "circle" } else { "corner" }
+        };
         Interface {
             bodies: interface.bodies.map(|b| scene.name(b)),
-            kind: (interface.kind == ContactKind::Corner).then_some(if is_round { "circle" } else { "corner" }),
+            kind: (interface.kind == ContactKind::Corner).then(word),
             ends: interface.ends.map(place),
             application_points: contact.application_points.map(place),
             normal: arrow(interface.normal),
