@@ -63,7 +63,7 @@ impl ResultArgs {
 impl PageArgs {
     /// Analyses a scene and draws it as SVG.
     pub(super) fn figure(&self, text: &str) -> Result<String, Refusal> {
-        let level = self.figure.level;
+        let level = &self.figure.level;
         if self.broken {
             let sketch = Sketch::from_bytes(text.as_bytes(), level.contact_tolerance);
             return self.svg(figure::broken(&sketch, &self.options()?));
