@@ -168,8 +168,8 @@ impl AnalysisArgs {
         })
     }
 
-    /// Reads a scene from the bytes of its file, in which `lines_before` lines stand before it. Also returns the bytes
-    /// with the values that the option `set` changes.
+    /// Reads a scene from bytes. In its file, `lines_before` lines stand before these bytes. Also returns the bytes after
+    /// the option `set` has replaced values in them.
     pub(crate) fn read_scene<'b>(
         &self,
         lines_before: usize,

@@ -176,7 +176,8 @@ fn a_frame_has_the_results_of_its_worst_case() {
     // 0.9 · 88 kN · 0.5 m against 1.5 · 10 kN · 2 m.
     let at = frame.margins.as_ref().expect("requested").load_factor.at().expect("a limit");
     assert!((at - 0.9 * 44.0 / 30.0).abs() < 1e-6, "{at}");
-    // The normal force at the ground lies between the weight with 0.9 and the weight with snow.
+    // The least normal force at the ground is 0.9 times the weight, in the case `push`. The greatest is the weight and
+    // the snow together, in the case `all`.
     let [low, high] = found.envelope[0].normal;
     assert!((low - 0.9 * 88e3).abs() < 1e-3 && (high - 108e3).abs() < 1e-3, "{low} {high}");
     let [low, high] = found.envelope[0].friction;

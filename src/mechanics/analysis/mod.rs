@@ -184,7 +184,8 @@ pub struct FrameAnalysis {
     pub cases: Option<LoadCases>,
     /// How accurately the blocks must be placed, if requested and if the frame stands.
     pub placement: Option<Placement>,
-    /// How the structure follows each movement of a support that the scene lists, if the frame stands.
+    /// For each movement of a support that the scene lists: how the structure cracks and follows it. Empty if the frame
+    /// does not stand.
     pub movements: Vec<SupportMovement>,
     /// Which blocks may leave, in the order of placing, if requested.
     pub removable: Option<Vec<Removable>>,

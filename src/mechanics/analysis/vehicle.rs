@@ -2,8 +2,8 @@
 //!
 //! The axles are loads along gravity on the tops of the blocks. While every axle stays on the same edge, the loads are linear
 //! in the position x. The loads that the frame carries form a convex set, so 1/λ(x) is convex there, and the least factor λ
-//! is reached with an axle at an end of an edge. Without a step, these are the positions that are analysed: the least
-//! factor is then that of every position in between, too.
+//! belongs to a position with an axle at an end of an edge. If the scene gives no step, only these positions are analysed.
+//! No position between them has a smaller factor.
 //!
 //! All positions share the interfaces, the components and the forces of the unloaded frame. Each position needs one
 //! linear program; its forces and its mechanism prove the factor like that of a margin.

@@ -94,7 +94,8 @@ entry! {
         /// Load cases. With cases, the verdict of a frame is that of its worst case. Without cases, all loads act with
         /// factor 1.
         cases: Vec<CaseEntry>,
-        /// Small movements of parts of the ground. For each, the analysis finds how the structure follows.
+        /// Small movements of parts of the ground. The analysis computes for each of them how the structure cracks and
+        /// follows it.
         movements: Vec<MovementEntry>,
         /// A vehicle that travels over the structure. The analysis finds its most dangerous position.
         vehicle: Option<VehicleEntry>,

@@ -75,7 +75,8 @@ pub enum Kind {
     Freebody,
     /// How far each block alone may be off its place, and the pattern of errors with which the structure falls.
     Placement,
-    /// How the structure cracks and follows a support that moves a little. The option `movement` selects the movement.
+    /// The cracks of the structure and its displaced blocks after a small movement of a support. If the scene lists
+    /// several movements, the option `movement` selects one of them.
     Movement,
     /// Which blocks may leave: without help, while a robot holds another block, or not.
     Removable,

@@ -80,8 +80,8 @@ pub(crate) trait Figure: Sync {
         0.0
     }
 
-    /// Returns the optional margins: the figure shows them if the analysis has computed them, and is complete without
-    /// them. Margins that the figure needs are requested with [`About::needs_margins`].
+    /// Returns the margins that the figure shows if the analysis has computed them. The figure is complete without them.
+    /// If a figure is not complete without margins, [`About::needs_margins`] requests them.
     fn stated_margins(&self, _analysis: &Analysis) -> &'static [MarginKind] {
         &[]
     }

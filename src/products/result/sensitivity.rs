@@ -141,7 +141,7 @@ impl<'a> End<'a> {
         });
         let loads = found.loads.iter().map(|(load, slopes)| {
             let given = &scene.loads[*load];
-            Load { load: *load, block: &scene.blocks[given.block.0].id, at: place(given.at), slope: two(*slopes) }
+            Load { load: given.entry, block: &scene.blocks[given.block.0].id, at: place(given.at), slope: two(*slopes) }
         });
         End {
             end: if is_high { "high" } else { "low" },

@@ -47,7 +47,8 @@ pub fn cracks(scene: &Scene, found: &FrameAnalysis, cracked: &Cracked) -> String
     format!("{}{more}", listed(&named))
 }
 
-/// Describes how a frame follows a movement, in one sentence without a full stop.
+/// Returns one sentence, without a full stop, about a movement of a support: the force on the support, and which joints
+/// open or slide and by how much.
 pub fn sentence(scene: &Scene, found: &FrameAnalysis, moved: &SupportMovement) -> String {
     let first = movement(scene, moved);
     match &moved.outcome {

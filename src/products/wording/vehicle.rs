@@ -1,4 +1,4 @@
-//! Describes the influence line of a vehicle.
+//! Describes the load factor at the positions of a vehicle.
 
 use super::number::{amount, counted, listed, three_down};
 use crate::mechanics::analysis::{Influence, VehiclePosition};

@@ -170,8 +170,9 @@ fn acting(
     acting
 }
 
-/// Returns the point of a foot nearest to its resultant at which a strand of this width, metres, lies in the joint. If
-/// hardly anything of the strand lies outside, and at joints between blocks, it is the point of the resultant.
+/// Returns the point of a joint at which a strand of the given width, metres, ends. This is the point of the resultant.
+/// At the ground, if a large part of the strand would lie outside the joint, the point moves inward until the strand
+/// lies inside.
 fn within_joint(contact: &Contact, width: f64) -> Point {
     let (interface, at) = (&contact.interface, contact.resultant.at);
     let (middle, tangent) = (interface.middle(), interface.tangent());
