@@ -321,9 +321,9 @@ impl FigureArgs {
     /// lacks some.
     #[cfg(any(feature = "python", feature = "wasm"))]
     pub(crate) fn completed(&self, analysis: &Analysis) -> Result<Analysis, String> {
-        let options = self.add_to(analysis::Options::default(), &analysis.scene)?;
+        let options = self.add_to(analysis::Options::default(), analysis.given())?;
         Ok(if self.kind.lacks(analysis, &options) {
-            self.kind.analysed(&analysis.scene, &options, &self.options)
+            self.kind.analysed(analysis.given(), &options, &self.options)
         } else {
             analysis.clone()
         })

@@ -2,7 +2,7 @@
 
 use drystone::analysis::{Margin, MarginKind, MarginKinds, Options, Verdict};
 use drystone::scene::format::{BlockEntry, BlockSide, CaseEntry, DepthEntry, LoadEntry, PressureEntry, SceneFile};
-use drystone::{Analysis, Scene};
+use drystone::{Analysis, Scene, figure, figure::Kind, output};
 use serde_json::{Value, json};
 
 use crate::random::Random;
@@ -188,6 +188,43 @@ fn a_frame_has_the_results_of_its_worst_case() {
     let analysis = Analysis::with(with_cases(falls.clone()), &Options::default());
     assert_eq!(analysis.verdict(), Verdict::Unstable);
     assert_eq!(drystone::analysis::verdicts(&with_cases(falls), &Options::default()), [Verdict::Unstable]);
+}
+
+/// The first step alone falls nearest to a push to the right; with the second block on its left, the push to the left
+/// governs. Pictures, limits and single frames belong to the case of their own frame.
+#[test]
+fn each_step_has_the_scene_of_its_own_worst_case() {
+    let mut file = on_floor(
+        1.0,
+        2.0,
+        9.0,
+        json!([{ "id": "right", "block": "dam", "force": [2e3, 0], "at": [0, 2] },
+               { "id": "left", "block": "top", "force": [-5e3, 0], "at": [0.5, 3] }]),
+    );
+    file["blocks"]
+        .as_array_mut()
+        .expect("blocks")
+        .push(json!({ "id": "top", "polygon": [[0, 2], [1, 2], [1, 3], [0, 3]], "weight": 44e3 }));
+    file["cases"] =
+        json!([{ "id": "to the right", "loads": { "right": 1 } }, { "id": "to the left", "loads": { "left": 2 } }]);
+    file["steps"] = json!([{ "place": ["dam"] }, { "place": ["top"] }]);
+    let analysis = Analysis::with(scene(file), &Options::default().margins(true));
+    let worst: Vec<&str> = analysis
+        .frames
+        .iter()
+        .map(|frame| frame.cases.as_ref().expect("cases"))
+        .map(|cases| cases.each[cases.governing].id.as_str())
+        .collect();
+    assert_eq!(worst, ["to the right", "to the left"]);
+    for (number, load) in [(0, 2e3), (1, -10e3)] {
+        let loads = analysis.scene_of(number).loads();
+        assert_eq!((loads.len(), loads[0].force.x), (1, load));
+        let svg =
+            output::svg::write(&figure::panels_of(&analysis, Kind::Forces, &figure::Options::default(), &[number])[0]);
+        let [own, other] = if number == 0 { ["2 kN", "10 kN"] } else { ["10 kN", "2 kN"] };
+        let words = svg.replace('\u{a0}', " ");
+        assert!(words.contains(&format!(">{own}<")) && !words.contains(&format!(">{other}<")), "{number}: {svg}");
+    }
 }
 
 #[test]

@@ -354,8 +354,8 @@ impl PictureOutput {
         } else {
             Arc::clone(&analysis.scene)
         };
-        let case_scenes = analysis.case_scenes.clone();
-        let shown = Analysis { scene: legible, frames: analysis.frames.clone(), notes: Vec::new(), case_scenes };
+        let cases = analysis.cases.clone();
+        let shown = Analysis { scene: legible, frames: analysis.frames.clone(), notes: Vec::new(), cases };
         let drawing = figure::forces(&shown, &self.options);
         match self.picture.bytes(drawing, self.format, &self.fonts) {
             Ok(bytes) => {

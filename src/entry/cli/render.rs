@@ -288,7 +288,7 @@ impl Render {
             let names = sources.map(Source::name);
             CliError::CommandLine(format!("{} and {}: {why}", names[0], names[1]))
         })?;
-        let joined = Analysis { scene: Arc::new(scene), frames, notes: Vec::new(), case_scenes: Vec::new() };
+        let joined = Analysis { scene: Arc::new(scene), frames, notes: Vec::new(), cases: None };
         let drawing = figure::draw(&joined, figure::Kind::Compare, options);
         Ok(Rendered {
             bytes: vec![self.draw.picture.bytes(drawing, format, fonts)?],

@@ -292,7 +292,7 @@ fn is_left_out(frame: &FrameAnalysis) -> bool {
 
 /// Returns the remarks below the row of a frame. Each remark is printed on a separate line.
 fn remarks(analysis: &Analysis, number: usize, detail: &Detail) -> Vec<String> {
-    let (scene, frame) = (&*analysis.scene, &analysis.frames[number]);
+    let (scene, frame) = (analysis.scene_of(number), &analysis.frames[number]);
     let state = &scene.frames[number];
     let mut remarks = Vec::new();
     if let Some(timing) = detail.full {

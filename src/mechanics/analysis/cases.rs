@@ -1,7 +1,7 @@
 //! Load cases: each frame is analysed in every case, and its results are those of its worst case.
 //!
-//! The worst case has the worst verdict. Of the cases in which the frame stands, it has the least load factor, or else
-//! the least tilt, if these margins were computed; otherwise it is the first.
+//! The worst case has the worst verdict. Of the cases in which the frame stands, it has the least load factor, and of
+//! cases with the same load factor the least tilt, if these margins were computed; otherwise it is the first.
 
 use std::sync::Arc;
 
@@ -41,6 +41,23 @@ pub struct Envelope {
     pub normal: [f64; 2],
     /// The friction force, in the direction of the tangent.
     pub friction: [f64; 2],
+}
+
+/// The scenes of an analysis with load cases.
+#[derive(Clone, Debug)]
+pub(crate) struct CaseScenes {
+    /// The scene with its cases.
+    given: Arc<Scene>,
+    /// For each frame, the scene in the worst case of this frame.
+    of_frames: Vec<Arc<Scene>>,
+}
+
+impl CaseScenes {
+    /// Returns the scenes with only one of their frames. `None` if there is no such frame.
+    pub(super) fn alone(&self, number: usize) -> Option<CaseScenes> {
+        let own = self.of_frames.get(number)?.alone(number)?;
+        Some(CaseScenes { given: self.given.alone(number)?.into(), of_frames: vec![own.into()] })
+    }
 }
 
 impl Scene {
@@ -92,14 +109,20 @@ impl Analysis {
         }
         // Results of the whole scene, such as a list of inputs, show the case of the worst frame.
         let worst = worst_of(&frames.iter().collect::<Vec<_>>());
-        let shown = scenes.get(worst).cloned().unwrap_or(scene);
-        Analysis { scene: shown, frames, notes, case_scenes: scenes }
+        let shown = scenes.get(worst).unwrap_or(&scene).clone();
+        Analysis { scene: shown, frames, notes, cases: Some(CaseScenes { given: scene, of_frames: scenes }) }
     }
 
     /// Returns the scene with the loads and weights to which the results of a frame belong: those of its worst load
     /// case, or the scene itself if it has no cases.
     pub fn scene_of(&self, frame: usize) -> &Arc<Scene> {
-        self.case_scenes.get(frame).unwrap_or(&self.scene)
+        self.cases.as_ref().and_then(|cases| cases.of_frames.get(frame)).unwrap_or(&self.scene)
+    }
+
+    /// Returns the scene as it was given to the analysis, with its load cases.
+    #[cfg(any(feature = "python", feature = "wasm"))]
+    pub(crate) fn given(&self) -> &Arc<Scene> {
+        self.cases.as_ref().map_or(&self.scene, |cases| &cases.given)
     }
 }
 
@@ -114,14 +137,14 @@ fn is_worse(first: &FrameAnalysis, second: &FrameAnalysis) -> bool {
     first.verdict > second.verdict || (first.verdict == second.verdict && a < b)
 }
 
-/// Returns the least margin by which cases are compared: the load factor, or else the tilt in degrees. Infinite if it is
-/// not known.
-fn reserve(found: &FrameAnalysis) -> f64 {
-    let Some(margins) = &found.margins else {
-        return f64::INFINITY;
-    };
-    let of_tilt = || [&margins.tilt.left, &margins.tilt.right].into_iter().filter_map(Margin::at);
-    margins.load_factor.at().unwrap_or_else(|| of_tilt().fold(f64::INFINITY, f64::min))
+/// Returns the margins by which cases are compared: the load factor, then the tilt in degrees. A margin is infinite if it
+/// is not known or has no limit, such as the load factor of a case without loads.
+fn reserve(found: &FrameAnalysis) -> [f64; 2] {
+    let margin = |of: &Margin| of.at().unwrap_or(f64::INFINITY);
+    let margins = found.margins.as_ref();
+    margins.map_or([f64::INFINITY; 2], |margins| {
+        [margin(&margins.load_factor), margin(&margins.tilt.left).min(margin(&margins.tilt.right))]
+    })
 }
 
 /// Returns the range of the forces at each interface over all cases. All cases have the same interfaces.

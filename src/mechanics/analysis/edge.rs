@@ -73,7 +73,7 @@ impl Analysis {
     /// Returns the value at a limit, and the elementary mechanism slightly beyond it. Exactly at the limit, the power
     /// along the mechanism is 0; slightly beyond the limit it is positive.
     fn beyond(&self, frame: usize, toward: Toward, limit: Limit) -> (f64, Vec<Motion>) {
-        let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene));
+        let (gravity, mut scene) = (self.scene.gravity, Scene::clone(self.scene_of(frame)));
         let Limit { at, outward, motions } = limit;
         match toward {
             Toward::Tilt => {

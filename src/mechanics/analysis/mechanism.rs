@@ -71,7 +71,7 @@ impl Analysis {
     /// Returns the elementary mechanisms of an unstable frame. `number` is the number of the frame, from 0.
     fn mechanisms(&self, number: usize) -> Vec<Motion> {
         let analysis = &self.frames[number];
-        self.elementary_mechanisms(&self.scene, analysis, &analysis.mechanism)
+        self.elementary_mechanisms(self.scene_of(number), analysis, &analysis.mechanism)
     }
 
     /// Replaces `motions`, by which a frame falls under the loads of `scene`, by one elementary mechanism for each

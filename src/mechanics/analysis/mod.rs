@@ -48,6 +48,7 @@ pub use capacity::{
     CapacityEdge, CapacityError, CapacityRequest, CapacityShape, CapacityVertex, Cases, ForceAt, LoadCapacity,
     VertexForce,
 };
+pub(crate) use cases::CaseScenes;
 pub use cases::{CaseResult, Envelope, LoadCases};
 pub use decide::Method;
 #[cfg(feature = "certificate")]
@@ -135,8 +136,8 @@ pub struct Analysis {
     /// Notes on things that are allowed but seldom intended: the notes of the scene, and notes on gaps that are
     /// nearly contacts.
     pub notes: Vec<Note>,
-    /// For a scene with load cases: for each frame, the scene in its worst case. Otherwise empty.
-    pub(crate) case_scenes: Vec<Arc<Scene>>,
+    /// The scenes in their worst load cases; `None` if the scene has no cases.
+    pub(crate) cases: Option<CaseScenes>,
 }
 
 /// The results of one frame.
@@ -244,17 +245,16 @@ impl Analysis {
         removable::add_removables(&scene, &interfaces, &mut frames, options);
         vehicle::add_influence(&scene, &interfaces, &mut frames, options);
         let notes = gaps_closed::notes(&scene, &interfaces);
-        Analysis { scene, frames, notes, case_scenes: Vec::new() }
+        Analysis { scene, frames, notes, cases: None }
     }
 
     /// Returns the analysis of one frame alone, whose scene has only this frame too. `number` is counted from 0. `None`
     /// if there is no such frame.
     pub(crate) fn alone(&self, number: usize) -> Option<Analysis> {
         let frames = vec![self.frames.get(number)?.clone()];
-        let case_scenes = self.case_scenes.get(number).and_then(|scene| scene.alone(number)).map(Arc::new);
-        let scene = self.scene.alone(number)?.into();
-        let case_scenes = case_scenes.into_iter().collect();
-        Some(Analysis { scene, frames, notes: self.notes.clone(), case_scenes })
+        let scene = self.scene_of(number).alone(number)?.into();
+        let cases = self.cases.as_ref().and_then(|cases| cases.alone(number));
+        Some(Analysis { scene, frames, notes: self.notes.clone(), cases })
     }
 
     /// Returns the worst verdict of all frames; stable if there are no frames.

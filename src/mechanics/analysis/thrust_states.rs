@@ -73,16 +73,17 @@ impl Analysis {
         let Some(found) = self.frames.get(frame) else {
             return ThrustStates::default();
         };
-        let few = self.scene.frames[frame].placed.len() <= MAX_BLOCKS;
+        let scene = self.scene_of(frame);
+        let few = scene.frames[frame].placed.len() <= MAX_BLOCKS;
         let feet: BTreeSet<BlockId> = supports(&found.contacts).iter().map(|s| s.0).collect();
         let none = ThrustStates { supports: feet.len(), ..ThrustStates::default() };
         if found.verdict != Verdict::Stable || !few || feet.len() != 2 {
             return none;
         }
         // Without a horizontal load, the horizontal forces of the two supports are opposite and equal.
-        let across = quarter_turn(self.scene.down());
-        let applied = self.scene.applied_forces();
-        let placed = self.scene.frames[frame].placed.iter();
+        let across = quarter_turn(scene.down());
+        let applied = scene.applied_forces();
+        let placed = scene.frames[frame].placed.iter();
         let applied = placed.flat_map(|block| applied[block.0].iter().map(|applied| applied.force));
         let robots = found.robots.iter().map(|robot| robot.force);
         let pushed: Vector = applied.chain(robots).sum();
@@ -98,7 +99,7 @@ impl Analysis {
             least,
             greatest: self.extreme(frame, -1.0),
             central: self.central(frame),
-            present: thrust(&self.scene, &found.contacts),
+            present: thrust(scene, &found.contacts),
             ..none
         }
     }
@@ -106,7 +107,7 @@ impl Analysis {
     /// Computes the state of least thrust (`sign` 1) or of greatest thrust (`sign` −1). `None` if no such forces are
     /// found and proved.
     fn extreme(&self, number: usize, sign: f64) -> Option<ThrustState> {
-        let scene = &*self.scene;
+        let scene = &**self.scene_of(number);
         let frame = &scene.frames[number];
         let interfaces = Interfaces::new(scene);
         let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(scene, frame) };
@@ -124,7 +125,7 @@ impl Analysis {
     /// which it stands. `None` if this kernel is unknown, or if the forces have no proof.
     fn central(&self, number: usize) -> Option<ThrustState> {
         let kernel = self.frames[number].margins.as_ref()?.kernel.at()?;
-        let mut scene = Scene::clone(&self.scene);
+        let mut scene = Scene::clone(self.scene_of(number));
         scene.movements.clear();
         scene.vehicle = None;
         scene.kernel = (kernel * (1.0 - WITHIN_KERNEL)).clamp(scene.kernel, 1.0);

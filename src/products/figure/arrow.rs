@@ -182,7 +182,7 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
 /// length. With [`Normalisation::Source`], this is the largest single unknown of the linear program, weight or load. In
 /// a zoomed figure, only forces in the zoomed view count.
 pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
-    let scene = &analysis.scene;
+    let scene = analysis.scene_of(frame);
     let (frame, frame_analysis) = (&scene.frames[frame], &analysis.frames[frame]);
     let edge = unit(scene, options.zoom);
     let near = options.zoom.map(|block| zoomed_view(scene, block));
@@ -234,7 +234,7 @@ pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_u
     if newtons_per_unit.is_nan() || newtons_per_unit <= 0.0 {
         return marks;
     }
-    let scene = &analysis.scene;
+    let scene = analysis.scene_of(frame);
     let options = &options.for_scene(scene);
     let edge = unit(scene, options.zoom);
     let maker = ArrowMaker { scene, options, edge, metres_per_newton: edge / newtons_per_unit };

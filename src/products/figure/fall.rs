@@ -59,7 +59,7 @@ impl<'a> Fall<'a> {
 
     /// A motion of a frame under other loads.
     pub fn with(analysis: &'a Analysis, frame: usize, motions: &[Motion]) -> Fall<'a> {
-        let (scene, found) = (&*analysis.scene, &analysis.frames[frame]);
+        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         let mut by_block = vec![None; scene.blocks.len()];
         for motion in motions {
             by_block[motion.block.0] = Some(*motion);

@@ -50,7 +50,7 @@ impl Figure for InfluenceLine {
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-        let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         match (&found.vehicle, found.verdict) {
             (Some(influence), _) => {
                 let Some(own) = shown(influence, options.motion_progress) else { return vec![factor(influence)] };

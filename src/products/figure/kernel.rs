@@ -46,7 +46,7 @@ impl Figure for Kernel {
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
-        let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         match found.verdict {
             Verdict::Unstable => vec!["no resultants, because no forces balance the structure".into()],
             Verdict::Undecided => vec![format!("no resultants; {}", verdict::reason(scene, found))],

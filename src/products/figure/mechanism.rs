@@ -63,7 +63,7 @@ impl Figure for Mechanism {
             };
         }
         let lack = if found.verdict == Verdict::Unstable && options.verdict_margin {
-            governing(&analysis.scene, frame, found).words
+            governing(analysis.scene_of(frame), frame, found).words
         } else {
             Vec::new()
         };

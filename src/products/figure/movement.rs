@@ -46,7 +46,7 @@ impl Figure for MovedSupport {
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-        let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         match (chosen(analysis, frame, options), found.verdict) {
             (Some(moved), _) => {
                 let pushes = match &moved.outcome {

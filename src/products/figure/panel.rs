@@ -138,7 +138,7 @@ pub(crate) fn caption(analysis: &Analysis, frame: usize, options: &Options) -> S
 
 /// Returns the headline margin of a frame, or what decides if no margin does.
 pub(crate) fn margin_words(analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+    let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
     let unexplained =
         found.verdict == Verdict::Undecided || found.verdict == Verdict::Unstable && found.failures.is_empty();
     // The panels of a strip are too narrow for margins.

@@ -48,7 +48,7 @@ impl Figure for PlacementTolerance {
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
-        let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         match (&found.placement, found.verdict) {
             (Some(placement), _) => sentences(scene, placement),
             (None, Verdict::Stable) => vec!["every block is in its place".into()],

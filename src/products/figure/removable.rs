@@ -37,7 +37,7 @@ impl Figure for RemovableBlocks {
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
-        let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         match (&found.removable, found.verdict) {
             (_, Verdict::Undecided) => vec![verdict::reason(scene, found)],
             (rows, _) => phrases(scene, rows.as_deref().unwrap_or_default()),

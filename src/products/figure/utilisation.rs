@@ -49,7 +49,7 @@ impl Figure for Utilisation {
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
-        let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         let mut words: Vec<String> = verdict::margin(scene, found, Parameter::Friction).into_iter().collect();
         if found.verdict == Verdict::Undecided {
             words.push(verdict::reason(scene, found));

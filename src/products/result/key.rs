@@ -453,7 +453,7 @@ pub static KEYS: &[Key] = &[
                 key("right", Margin, "to the right (anticlockwise)").unit("°"),
             ]),
         ]),
-        key("governing_case", Text, "the worst case: that with the worst verdict, then that with the least load factor, then that with the least tilt").when("if the scene has load cases"),
+        key("governing_case", Text, "the worst case: that with the worst verdict, then that with the least load factor; of equal ones, that with the least tilt").when("if the scene has load cases"),
         key("envelope", Objects, "the least and the greatest forces at each interface in the listed balances of all cases").when("if the scene has load cases").of(&[
             key("interface", Count, "index in `interfaces`, from 0"),
             key("normal", Pair, "least and greatest sum of the normal forces").unit("N"),

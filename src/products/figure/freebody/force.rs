@@ -6,7 +6,7 @@ use super::surroundings::{Corner, corners, distinct, inward, other};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::mechanics::analysis::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause};
+use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause, Scene};
 use crate::pictures::drawing::Colour;
 use crate::pictures::drawing::symbol::{Accent, Symbol};
 
@@ -136,7 +136,13 @@ pub(super) fn forces(
     contacts: &[&Contact],
     options: &Options,
 ) -> Vec<Force> {
-    let source = ForceSource { analysis, frame_analysis: &analysis.frames[frame], block, contacts, options };
+    let source = ForceSource {
+        scene: analysis.scene_of(frame),
+        frame_analysis: &analysis.frames[frame],
+        block,
+        contacts,
+        options,
+    };
     let mut forces = source.applied();
     for (number, contact) in contacts.iter().enumerate() {
         forces.extend(source.interface(number + 1, contact));
@@ -148,7 +154,7 @@ pub(super) fn forces(
 
 /// Collects the forces on a block, one method for each kind of force.
 struct ForceSource<'a> {
-    analysis: &'a Analysis,
+    scene: &'a Scene,
     frame_analysis: &'a FrameAnalysis,
     block: BlockId,
     /// The contacts of the block.
@@ -162,7 +168,7 @@ impl ForceSource<'_> {
     fn applied(&self) -> Vec<Force> {
         let mut forces = Vec::new();
         let mut load_count = 0;
-        for applied in &self.analysis.scene.applied_forces()[self.block.0] {
+        for applied in &self.scene.applied_forces()[self.block.0] {
             forces.extend(match applied.cause {
                 ForceCause::Weight => vec![self.weight(applied)],
                 ForceCause::Load(_) => {
@@ -229,7 +235,7 @@ impl ForceSource<'_> {
         let normal = inward(contact, self.block);
         let left = quarter_turn(normal);
         let pushes = self.contacts.iter().flat_map(|c| c.normal_forces);
-        let weight = self.analysis.scene.blocks[self.block.0].weight;
+        let weight = self.scene.blocks[self.block.0].weight;
         let noise = FORCE_TOL * pushes.fold(weight, f64::max);
         let mut forces = Vec::new();
         for (number, corner) in self.ends(contact) {
@@ -297,7 +303,7 @@ impl ForceSource<'_> {
 
     /// Returns the force of each robot that holds the block, and its torque if the robot can exert torques.
     fn robots(&self) -> Vec<Force> {
-        let (scene, theme) = (&self.analysis.scene, &self.options.theme);
+        let (scene, theme) = (self.scene, &self.options.theme);
         let mut forces = Vec::new();
         for held in self.frame_analysis.robots.iter().filter(|r| r.block == self.block) {
             let robot = &scene.robots[held.robot.0];
@@ -349,7 +355,7 @@ impl ForceSource<'_> {
             Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => {
                 self.named(bodies.into_iter().find(|body| *body != own)?)
             }
-            _ => format!("robot {}", self.analysis.scene.robots[failure.robot()?.0].id),
+            _ => format!("robot {}", self.scene.robots[failure.robot()?.0].id),
         };
         Some(Force {
             symbol: Symbol::new("X", Accent::None, ""),
@@ -366,7 +372,7 @@ impl ForceSource<'_> {
     fn named(&self, body: BodyId) -> String {
         match body {
             BodyId::Ground(_) => "ground".to_owned(),
-            BodyId::Block(_) => self.analysis.scene.name(body).to_owned(),
+            BodyId::Block(_) => self.scene.name(body).to_owned(),
         }
     }
 }

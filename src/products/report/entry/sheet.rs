@@ -210,7 +210,7 @@ fn figures(
     report_options: &ReportOptions,
     collapse: Option<&Collapse>,
 ) -> Vec<Figure> {
-    let (scene, found) = (&analysis.scene, &analysis.frames[number]);
+    let (scene, found) = (analysis.scene_of(number), &analysis.frames[number]);
     let forces = match found.verdict {
         Verdict::Stable => "The forces of one possible balance.",
         Verdict::Unstable if found.failures.is_empty() => "The forces.",
