@@ -113,6 +113,31 @@ pub(super) fn ghosts(canvas: &mut Canvas<'_>) {
 
 /// Draws the moving blocks in their displaced positions.
 fn displaced(canvas: &mut Canvas<'_>) {
+    let scene = canvas.scene();
+    let words = if canvas.options.film { "blocks that fall" } else { "how they begin to move, enlarged" };
+    let bodies = collapse::bodies(&Fall::of(canvas.analysis, canvas.number));
+    let sentences: BTreeMap<BlockId, &String> =
+        bodies.iter().flat_map(|body| body.blocks.iter().map(|id| (*id, &body.sentence))).collect();
+    if let [body] = &bodies[..] {
+        canvas.mentioned.extend(&body.mentioned);
+    }
+    let motions = &canvas.found().mechanism;
+    displaced_blocks(canvas, motions.iter().map(|motion| (motion.block, motion)), words, |motion, mut mark| {
+        let sentence = sentences.get(&motion.block).map_or(String::new(), |sentence| format!("{sentence}; "));
+        let weight = quantity(scene.blocks[motion.block.0].weight, scene.units.force());
+        mark.description = format!("{sentence}weight {weight}");
+        mark.titled(description::motion(scene, motion))
+    });
+}
+
+/// Draws blocks in their displaced positions. `words` explain them in the legend, and `described` completes the mark of
+/// each block. The second item of a pair is passed to `described`.
+pub(super) fn displaced_blocks<T>(
+    canvas: &mut Canvas<'_>,
+    blocks: impl Iterator<Item = (BlockId, T)>,
+    words: &str,
+    described: impl Fn(T, Mark) -> Mark,
+) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
     let edge = Stroke::new(moved_edge(theme), canvas.mm(if canvas.look.large { 0.26 } else { 0.2 }));
     let drawn = |outline: Outline| {
@@ -120,26 +145,15 @@ fn displaced(canvas: &mut Canvas<'_>) {
         vec![fill, Path::stroked(outline, edge.clone())]
     };
     let (swatch, width) = small_block(canvas.look);
-    let words = if canvas.options.film { "blocks that fall" } else { "how they begin to move, enlarged" }.into();
-    let key = Rc::new(Key { rank: 11, words, symbol: drawn(swatch), width });
-    let bodies = collapse::bodies(&Fall::of(canvas.analysis, canvas.number));
-    let sentences: BTreeMap<BlockId, &String> =
-        bodies.iter().flat_map(|body| body.blocks.iter().map(|id| (*id, &body.sentence))).collect();
-    if let [body] = &bodies[..] {
-        canvas.mentioned.extend(&body.mentioned);
-    }
-    for motion in &canvas.found().mechanism {
-        if canvas.displacement(motion.block).is_none() {
+    let key = Rc::new(Key { rank: 11, words: words.to_owned(), symbol: drawn(swatch), width });
+    for (id, item) in blocks {
+        if canvas.displacement(id).is_none() {
             continue;
         }
-        let (block, mut outline) = (&scene.blocks[motion.block.0], Outline::default());
-        for ring in block.body.polygon.rings() {
-            let corners = ring.iter().map(|p| canvas.place_on(BodyId::Block(motion.block), *p));
-            outline.extend(Outline::ring(corners));
+        let mut outline = Outline::default();
+        for ring in scene.blocks[id.0].body.polygon.rings() {
+            outline.extend(Outline::ring(ring.iter().map(|p| canvas.place_on(BodyId::Block(id), *p))));
         }
-        let mut mark = Mark::new(Layer::Stone, "displaced", drawn(outline)).keyed(&key);
-        let sentence = sentences.get(&motion.block).map_or(String::new(), |sentence| format!("{sentence}; "));
-        mark.description = format!("{sentence}weight {}", quantity(block.weight, scene.units.force()));
-        canvas.put(mark.titled(description::motion(scene, motion)));
+        canvas.put(described(item, Mark::new(Layer::Stone, "displaced", drawn(outline)).keyed(&key)));
     }
 }

@@ -4,16 +4,14 @@
 //! The picture is made like that of a mechanism, in which the support is one more block that moves. The words state the
 //! movement for which it is drawn.
 
-use std::rc::Rc;
-
 use super::about::About;
 use super::canvas::Canvas;
 use super::description::pair;
-use super::design::{Key, Layer, Mark, moved_edge, small_block};
+use super::design::{Layer, Mark};
 use super::displacement::Course;
 use super::fall::Fall;
 use super::gives::{self, Gives, How};
-use super::mechanism::ghosts;
+use super::mechanism::{displaced_blocks, ghosts};
 use super::option::Options;
 use super::panel::Figure;
 use super::placing::Label;
@@ -26,8 +24,6 @@ use crate::pictures::drawing::{Outline, Path, Stroke};
 use crate::products::wording::movement::{force, movement, per_unit, without_state};
 use crate::products::wording::number::{quantity, round_below_in, three};
 
-/// The opacity of the fill of a displaced block.
-const OPACITY: f64 = 0.38;
 /// The largest number of joints that state how far they open or slide.
 const MAX_AMOUNTS: usize = 12;
 
@@ -133,23 +129,8 @@ fn displace(canvas: &mut Canvas<'_>, cracked: &Cracked, movement: &Movement) {
 /// Draws the displaced blocks, and the present edge of the support.
 fn displaced(canvas: &mut Canvas<'_>, movement: &Movement) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
-    let edge = Stroke::new(moved_edge(theme), canvas.mm(if canvas.look.large { 0.26 } else { 0.2 }));
-    let drawn = |outline: Outline| {
-        let fill = Path::filled(outline.clone(), theme.motion).with_opacity(OPACITY);
-        vec![fill, Path::stroked(outline, edge.clone())]
-    };
-    let (swatch, width) = small_block(canvas.look);
-    let key = Rc::new(Key { rank: 11, words: "how they follow, enlarged".into(), symbol: drawn(swatch), width });
-    for id in &canvas.frame().placed {
-        if canvas.displacement(*id).is_none() {
-            continue;
-        }
-        let (block, mut outline) = (&scene.blocks[id.0], Outline::default());
-        for ring in block.body.polygon.rings() {
-            outline.extend(Outline::ring(ring.iter().map(|p| canvas.place_on(BodyId::Block(*id), *p))));
-        }
-        canvas.put(Mark::new(Layer::Stone, "displaced", drawn(outline)).keyed(&key).titled(block.id.clone()));
-    }
+    let blocks = canvas.frame().placed.iter().map(|id| (*id, &scene.blocks[id.0].id));
+    displaced_blocks(canvas, blocks, "how they follow, enlarged", |name, mark| mark.titled(name.clone()));
     // Where the support touches the structure now.
     let stroke = Stroke::new(theme.faint, canvas.mm(0.16)).dashed([canvas.mm(0.6), canvas.mm(0.5)]);
     let contacts = canvas.found().contacts.iter().map(|contact| &contact.interface);
