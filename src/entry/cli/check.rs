@@ -16,7 +16,7 @@ use crate::entry::cli::verify;
 use crate::entry::request::CheckArgs;
 use crate::mechanics::analysis::{Analysis, Options, Verdict};
 use crate::mechanics::scene::{Note, Scene};
-use crate::products::figure::{self, Kind};
+use crate::products::figure;
 use crate::products::result::{Layout, Timing, refusal, to_json_of, to_json_with_blocks};
 use crate::products::wording::number::letter;
 use crate::products::wording::sensitivity;
@@ -161,7 +161,7 @@ impl Check {
         };
         // The table states the same margin as the line below a picture, if it takes little time.
         if is_table && !options.margins && !options.verdict_only {
-            let kinds = Kind::Forces.line_margins(&source.scene, &figure::Options::default());
+            let kinds = figure::cheap_margins(&source.scene);
             options = kinds.map_or(options, |kinds| options.margins(true).margin_kinds(kinds));
         }
         let mut analysis = self.what.analysed(&source.scene, &options);

@@ -29,10 +29,28 @@ use crate::mechanics::analysis::{CapacityRequest, MarginKind, Sensitivity};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::style::ForceMarks;
 
-/// The largest number of blocks for which a figure of forces asks for all margins, and for the factor on the loads and
-/// the tilt. Figures of more blocks only ask for the factor on the loads. The numbers count blocks, not seconds, so the same scene has the same figure on every machine.
+/// The largest number of placed blocks of all frames for which all margins are cheap, and for which the factor on the
+/// loads and the tilt are. The numbers count blocks, not seconds, so the same scene has the same figure on every
+/// machine.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 const MAX_MARGIN_BLOCKS: [usize; 2] = [60, 140];
+
+/// Returns the margins that a figure or a table computes without being asked: other margins of many blocks would take
+/// far longer than the verdicts. Returns `None` if there are none.
+#[cfg(any(feature = "cli", feature = "wasm"))]
+pub(crate) fn cheap_margins(scene: &Scene) -> Option<MarginKinds> {
+    let [all, main] = MAX_MARGIN_BLOCKS;
+    match scene.frames.iter().map(|frame| frame.placed.len()).sum::<usize>() {
+        count if count <= all => Some(MarginKinds::ALL),
+        count if count <= main => Some(MarginKinds::new(&[MarginKind::LoadFactor, MarginKind::Tilt])),
+        // The factor on the loads of one frame takes about as long as one or two verdicts, whatever the number of
+        // blocks.
+        _ if scene.frames.len() == 1 && scene.loads.iter().any(|load| scene.frames[0].placed.contains(&load.block)) => {
+            Some(MarginKinds::new(&[MarginKind::LoadFactor]))
+        }
+        _ => None,
+    }
+}
 
 /// The kind of a figure: what its panels show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -155,25 +173,13 @@ impl Kind {
         self.about().help
     }
 
-    /// Returns the margins that the line of the verdict gives if they are cheap: those of a figure of one frame of few
-    /// blocks, and the factor on the loads. Other margins of many blocks would take far longer than the figure itself.
+    /// Returns the margins that the line of the verdict of a figure of one frame gives, if they are cheap.
     #[cfg(any(feature = "cli", feature = "wasm"))]
-    pub(crate) fn line_margins(self, scene: &Scene, options: &Options) -> Option<MarginKinds> {
-        let [frame] = &scene.frames[..] else { return None };
+    fn line_margins(self, scene: &Scene, options: &Options) -> Option<MarginKinds> {
         let about = self.about();
-        if !options.verdict_margin || about.hides_verdicts || about.shows_one_block || about.states_own_margin {
-            return None;
-        }
-        let [all, main] = MAX_MARGIN_BLOCKS;
-        match frame.placed.len() {
-            count if count <= all => Some(MarginKinds::ALL),
-            count if count <= main => Some(MarginKinds::new(&[MarginKind::LoadFactor, MarginKind::Tilt])),
-            // The factor on the loads takes about as long as one or two verdicts, whatever the number of blocks.
-            _ if scene.loads.iter().any(|load| frame.placed.contains(&load.block)) => {
-                Some(MarginKinds::new(&[MarginKind::LoadFactor]))
-            }
-            _ => None,
-        }
+        let hides = about.hides_verdicts || about.shows_one_block || about.states_own_margin;
+        let states = options.verdict_margin && !hides && scene.frames.len() == 1;
+        states.then(|| cheap_margins(scene)).flatten()
     }
 
     /// Returns the optional margins of a figure of this analysis: the figure shows them if they have been computed, and

@@ -65,6 +65,8 @@ pub use draw::{draw, film, forces, least_size, panels, panels_of, split};
 pub(crate) use fall::{Fall, Joint};
 pub use gallery::{Plate, gallery};
 pub use kind::Kind;
+#[cfg(feature = "cli")]
+pub(crate) use kind::cheap_margins;
 pub use option::{ArrowScale, Corners, Fill, ForceStyle, Normalisation, Options};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use option::{free_block, named_block};
