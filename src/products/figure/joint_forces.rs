@@ -258,7 +258,7 @@ fn key_mark(canvas: &Canvas<'_>, newtons: f64, share: f64, both: bool) -> (Vec<P
     (vec![Path::filled(outline, tint(theme, share)).cased(theme.page, look.mm(0.1))], before + half)
 }
 
-/// Returns the entry with the scale: a mark of a round amount.
+/// Returns the entry with the scale: a mark of a round amount. A joint with the ground only has the half in the block.
 fn force_key(canvas: &Canvas<'_>, most: f64) -> Rc<Key> {
     let bodies = || canvas.analysis.frames.iter().flat_map(|frame| &frame.contacts).map(|c| c.interface.bodies);
     let on_ground = |bodies: [BodyId; 2]| bodies.iter().any(|body| matches!(body, BodyId::Ground(_)));
@@ -267,7 +267,11 @@ fn force_key(canvas: &Canvas<'_>, most: f64) -> Rc<Key> {
     let share = if canvas.scale * most < canvas.mm(6.0) { 1.0 } else { 0.75 };
     let round = round_below_in(share * most, units);
     let (symbol, width) = key_mark(canvas, round, round / most.max(f64::MIN_POSITIVE), blocks || !ground);
-    let what = if ground && !blocks { "from the ground" } else { "at a joint" };
+    let what = match (ground, blocks) {
+        (true, false) => "from the ground",
+        (true, true) => "at a joint; one head at ground",
+        (false, _) => "at a joint",
+    };
     Rc::new(Key { rank: 20, words: format!("{} {what}", quantity(round, units)), symbol, width })
 }
 

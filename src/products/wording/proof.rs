@@ -82,7 +82,7 @@ pub fn sentence(proof: Proof) -> String {
                 " The power of the loads is too small for a proof, or blocks move too fast against a contact or robot."
             };
             format!(
-                "There is a motion that no contact resists, and along which the loads do more work than robots can absorb, {ruled_out}.{weak}"
+                "There is a motion that no contact resists, and along which the loads do work, more than robots can absorb if there are any, {ruled_out}.{weak}"
             )
         }
     }

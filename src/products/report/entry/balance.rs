@@ -244,7 +244,7 @@ pub(super) fn check_words(frame_analysis: &FrameAnalysis) -> String {
             "The structure falls, and its forces were not computed: the sums are the imbalance."
         }
         Verdict::Unstable => {
-            "The sums are zero only with the missing forces, which neither contacts nor robots can give."
+            "The structure balances only with the missing forces, which neither contacts nor robots can give."
         }
         Verdict::Undecided => "No balance is proved: the sums are the remaining imbalance of the best forces found.",
     };

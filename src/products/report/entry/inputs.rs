@@ -214,7 +214,7 @@ pub(super) fn facts(scene: &Scene, number: usize) -> Grid {
     if !scene.loads.iter().any(|l| placed.contains(&l.block)) {
         add("loads", "none but the weights".to_owned());
     }
-    add("thickness", amount(scene.thickness, scene.units.length()));
+    add("thickness, into the page", amount(scene.thickness, scene.units.length()));
     let frictions = scene.ground.iter().map(|g| g.body.friction);
     let friction = ValueRange::words(frictions.fold(None, ValueRange::add));
     let ground = match scene.ground.len() {

@@ -152,7 +152,7 @@ impl StatedMargin<'_> {
     pub fn ends_and_present(&self) -> [String; 3] {
         let parameter = self.parameter;
         let end = |end: Option<&End>, is_upper: bool| match end {
-            None => "none".to_owned(),
+            None => "no value".to_owned(),
             Some(End::Unbounded) => "no limit".to_owned(),
             Some(End::At { value, .. }) => parameter.end(*value, is_upper),
             Some(End::Unconfirmed { stands, .. }) => format!("at least {}", parameter.end(*stands, is_upper)),
