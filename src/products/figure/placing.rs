@@ -26,6 +26,8 @@ const LEAST_LEADER: f64 = 1.4;
 const ALONG: f64 = 1.7;
 /// If the best position near the anchor costs more than this, positions farther away are tried too.
 const FAR_COST: f64 = 4.0;
+/// How far the halo of a label reaches beyond its text, mm.
+const HALO: f64 = 0.45;
 /// The cost of each mm of the edges of stones under a label.
 const EDGE_COST: f64 = 0.5;
 /// If fewer than this share of the blocks can have a name, none has one.
@@ -341,7 +343,8 @@ fn cost(
     let centre = drawn.structure.at.x + drawn.structure.width / 2.0;
     let beside = (centre - rect.at.x).max(rect.at.x + rect.width - centre) - look.panel / 2.0;
     cost += BESIDE_PANEL * per_mm(beside.max(0.0));
-    let edges = per_mm(drawn.edge_length(rect));
+    // The halo of the text covers edges close to it.
+    let edges = per_mm(drawn.edge_length(grown_rect(rect, look.mm(HALO))));
     let inside = drawn.share_inside(rect);
     let near = drawn.covered(grown_rect(rect, look.mm(0.75)));
     cost += EDGE_COST * edges + drawn.inside * inside + 0.5 * near.saturating_sub(1) as f64;

@@ -4,9 +4,9 @@
 use super::collapse::{Collapse, other_way};
 use super::joints::{Ranking, robots};
 use super::unit::Units;
-use super::{Badge, Figure, Grid, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
+use super::{Badge, Figure, Grid, MarginBar, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
 use crate::geometry::Bounds;
-use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, MovementOutcome, Toward, Verdict};
+use crate::mechanics::analysis::{Analysis, CaseResult, EffectName, FrameAnalysis, MovementOutcome, Toward, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Drawing, Theme};
 use crate::products::figure::{self, Kind, Options};
@@ -97,7 +97,7 @@ pub(super) fn sheet(
     };
     titled("Reactions", balance::support_forces(analysis, number), other_balances(analysis, number));
     titled("Margins", margins(scene, found), Some(bullet::SHAPES_LEGEND.to_owned()));
-    first.parts.extend(case::lines(found).into_iter().map(SheetPart::Note));
+    titled("Load cases", cases(scene, found), None);
     let notes = found.margins.iter().flat_map(|margins| &margins.intervals.notes);
     first.parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
 
@@ -280,6 +280,38 @@ fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
     for bar in bullet::margin_bars(scene, frame_analysis) {
         let [from, to, now] = bar.ends_and_present.clone().map(TableCell::from);
         grid.add("", [TableCell::from(bar.name.clone()), from, TableCell::bar(bar), to, now]);
+    }
+    grid
+}
+
+/// Makes the table of the load cases, each with its headline margin as a bar; the worst case is emphasised. Bars of the
+/// same margin have the same scale.
+fn cases(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new("", &["load case", "verdict", "margin", "#from", "bar", "to"]);
+    let Some(cases) = &frame_analysis.cases else { return grid };
+    let of = |case: &CaseResult| {
+        let (margins, verdict) = (case.margins.clone(), case.verdict);
+        bullet::margin_bars(scene, &FrameAnalysis { margins, verdict, ..frame_analysis.clone() }).into_iter().next()
+    };
+    let bars: Vec<Option<MarginBar>> = cases.each.iter().map(of).collect();
+    let is_alike = |name: &str| bars.iter().flatten().all(|bar| bar.name == name);
+    let scales = || bars.iter().flatten().map(|bar| bar.scale);
+    let scale = scales().fold((0.0_f64, 0.0_f64), |(low, high), scale| (low.min(scale.0), high.max(scale.1)));
+    let has_worst = cases.each.len() > 1 && case::worst(frame_analysis).is_some();
+    for (number, (case, bar)) in cases.each.iter().zip(&bars).enumerate() {
+        let name = TableCell::strong_if(has_worst && number == cases.governing, line(&case.id));
+        let verdict = TableCell::from(case.verdict.plain());
+        let [margin, from, shown, to] = match bar.clone() {
+            Some(mut bar) => {
+                if is_alike(&bar.name) {
+                    bar.scale = scale;
+                }
+                let [from, to, _] = bar.ends_and_present.clone().map(TableCell::from);
+                [TableCell::from(bar.name.clone()), from, TableCell::bar(bar), to]
+            }
+            None => ["–", "", "", ""].map(TableCell::from),
+        };
+        grid.add("", [name, verdict, margin, from, shown, to]);
     }
     grid
 }
