@@ -50,6 +50,7 @@ mod mechanism;
 mod movement;
 mod pictures;
 mod placement;
+mod plan;
 mod polygons;
 mod print;
 mod problems;

@@ -29,6 +29,7 @@ mod style_args;
 mod mdbook;
 mod new;
 mod page;
+mod plan;
 pub(super) mod picture;
 mod print;
 mod progress;
@@ -83,6 +84,7 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     Schema(print::Schema),
     New(new::New),
+    Plan(plan::Plan),
     Import(import::Import),
     Export(export::Export),
     #[command(name = "mdbook")]
@@ -121,6 +123,7 @@ pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
         Command::Accuracy(accuracy) => accuracy.run(&terminal),
         Command::Schema(schema) => schema.run(&terminal),
         Command::New(new) => new.run(&terminal),
+        Command::Plan(plan) => plan.run(&terminal),
         Command::Import(import) => import.run(&terminal),
         Command::Export(export) => export.run(&terminal),
         Command::MdBook(mdbook) => mdbook.run(&terminal),

@@ -120,7 +120,7 @@ impl Options {
     }
 
     /// True if the deadline has passed.
-    pub(super) fn is_late(self) -> bool {
+    pub(crate) fn is_late(self) -> bool {
         self.deadline.is_some_and(|end| Instant::now() >= end)
     }
 

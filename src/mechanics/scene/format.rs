@@ -115,9 +115,9 @@ entry! {
     }
 }
 
-/// Parses one entry of a scene file, such as a block, from its JSON text. Only the types of the values are checked. The
-/// error is a message for the user.
-#[cfg(any(feature = "python", feature = "wasm"))]
+/// Parses a scene file, or one entry of it, such as a block, from its JSON text. Only the types of the values are
+/// checked. The error is a message for the user.
+#[cfg(any(feature = "cli", feature = "python", feature = "wasm"))]
 pub(crate) fn parsed<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, String> {
     serde_json::from_str(text).map_err(|error| error.to_string())
 }
@@ -239,7 +239,7 @@ impl SceneFile {
 
     /// Replaces the contact tolerance of the file by `tolerance`, in metres; `None` leaves the file unchanged. The
     /// value is stored in the file's unit of length.
-    pub(super) fn tolerate(&mut self, tolerance: Option<f64>) {
+    pub(crate) fn tolerate(&mut self, tolerance: Option<f64>) {
         let unit = self.units.unwrap_or_default().length();
         let given = tolerance.map(|metres| unit.value_from_si(metres));
         self.contact_tolerance = given.or(self.contact_tolerance);

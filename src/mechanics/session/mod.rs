@@ -10,10 +10,12 @@
 //! coordinates. The whole scene is therefore read again after a block is placed or removed.
 
 mod error;
+mod plan;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 pub use error::SessionError;
+pub use plan::{PlanError, plan};
 
 use crate::geometry::{Cell, Point};
 use crate::mechanics::analysis::{

@@ -114,6 +114,7 @@ fn help_describes_commands_limits_and_exit_codes() {
         "man",
         "mdbook",
         "new arch",
+        "plan",
         "report",
         "snapshot",
     ] {

@@ -1,0 +1,77 @@
+//! `drystone plan`: finds an order in which a structure can be built with a few robots, and writes it as steps.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::entry::cli::destination;
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::source;
+use crate::entry::cli::terminal::Terminal;
+use crate::entry::request::AnalysisArgs;
+use crate::mechanics::analysis::{Analysis, Options, Verdict};
+use crate::mechanics::scene::format::{SceneFile, parsed};
+use crate::mechanics::session::{PlanError, plan};
+use crate::pictures::output::file::Existing;
+
+/// Find an order of placing all blocks such that every step stands while robots hold single blocks
+///
+/// Writes the scene with these steps. Draw them with drystone render --kind build. The scene's own steps are left out.
+/// Each robot holds one block at its centroid, with the limits of the first robot of the scene, or with any force.
+/// Whether a block fits between the others on its way is not tested.
+#[derive(Debug, Args)]
+pub(crate) struct Plan {
+    /// The scene; - reads standard input
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// How many robots may hold a block at the same time
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(0..=16))]
+    robots: u8,
+    /// The file to write; - or nothing prints the scene
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Replace the file if it exists
+    #[arg(long, requires = "output")]
+    force: bool,
+    #[command(flatten)]
+    level: AnalysisArgs,
+}
+
+impl Plan {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+        let output = self.output.as_deref().filter(|path| *path != Path::new("-"));
+        if let Some(path) = output {
+            destination::refuse_overwrites(&[path.to_owned()], &[&self.scene])?;
+        }
+        let (source, text) = source::with_text(&self.scene, &self.level)?;
+        let name = source.name();
+        let mut file: SceneFile = parsed(&text).map_err(|error| CliError::not_read(&name, error))?;
+        file.tolerate(self.level.contact_tolerance);
+        let options = self.level.options();
+        let planned = match plan(file, usize::from(self.robots), &options) {
+            Ok(planned) => planned,
+            Err(PlanError::SceneError(problems)) => return Err(CliError::Scene { name, problems }.into()),
+            Err(why) => {
+                terminal.note(&format!("{name}: {why}"));
+                let is_proved =
+                    matches!(why, PlanError::NoOrder(_) | PlanError::Finished { verdict: Verdict::Unstable, .. });
+                return Ok(if is_proved { ExitStatus::Unstable } else { ExitStatus::Undecided });
+            }
+        };
+        let written = planned.to_json();
+        let scene = planned.build().map_err(|problems| CliError::Scene { name: name.clone(), problems })?;
+        // Every frame of the written scene is analysed once more, with all its time.
+        let again = Options { deadline: None, ..options.only_verdict() };
+        let status = ExitStatus::from_analysis(&Analysis::with(scene, &again));
+        match output {
+            Some(path) => {
+                let existing = if self.force { Existing::Replace } else { Existing::Keep };
+                destination::write(&[(path.to_owned(), written.into_bytes())], existing)?;
+                terminal.note(&format!("wrote {0}; draw it with: drystone render {0} --kind build", path.display()));
+            }
+            None => terminal.print_bytes(written.as_bytes())?,
+        }
+        Ok(status)
+    }
+}
