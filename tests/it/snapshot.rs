@@ -5,6 +5,7 @@ mod disk;
 mod file;
 mod line;
 mod mutation;
+mod summary;
 
 use std::fs;
 use std::path::{Path, PathBuf};

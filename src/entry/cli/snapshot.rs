@@ -2,7 +2,7 @@
 
 mod answer;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -11,11 +11,12 @@ use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::page::Page;
 use crate::entry::cli::progress::{BarVisibility, Progress};
+use crate::entry::cli::source::stem;
 use crate::entry::cli::terminal::Terminal;
 use crate::pictures::output::file::{Existing, WriteError};
 use crate::products::snapshot::outcome::{Acceptance, folders};
 use crate::products::snapshot::store::{self, Access};
-use crate::products::snapshot::{CheckOutcome, check, ci, discover, review};
+use crate::products::snapshot::{CheckOutcome, check, ci, discover, review, summary};
 
 /// Compare scenes and their pictures with stored references, and explain what changed
 ///
@@ -50,6 +51,9 @@ pub(crate) struct Snapshot {
     /// changes in the terminal
     #[arg(long, value_name = "FILE.html", num_args = 0..=1)]
     review: Option<Option<PathBuf>>,
+    /// Write a summary as Markdown, for a comment or the summary of a job, with its pictures in a folder next to it
+    #[arg(long, value_name = "FILE.md")]
+    summary: Option<PathBuf>,
     /// Write the result as JUnit XML
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
@@ -95,13 +99,10 @@ impl Snapshot {
         let pruned = if self.prune { report.prune() } else { Ok(()) };
         let failing = report.failing().count();
         let described = report.changes();
-        // Make the review page before the results are accepted, so that it still shows the accepted changes.
-        let page = match &self.review {
-            Some(Some(_)) => review::page(&report, &self.folders),
-            _ => String::new(),
-        };
+        // Describe the changes before the results are accepted, so that the pages still show the accepted changes.
+        let pages = self.pages(&report);
         let unwritten = report.store(acceptance);
-        self.write_reports(&report, page).map_err(|c| vec![c])?;
+        self.write_reports(&report, pages).map_err(|c| vec![c])?;
         drop(turn);
         self.print_result(terminal, &report, &described, failing, acceptance)?;
         let mut errors: Vec<CliError> = pruned.err().into_iter().flatten().map(not_written).collect();
@@ -123,11 +124,26 @@ impl Snapshot {
         if errors.is_empty() { Ok(ending) } else { Err(errors) }
     }
 
-    /// Writes the review page if `--review` names a file, and the JUnit file if `--junit` is given.
-    fn write_reports(&self, report: &CheckOutcome, page: String) -> Result<(), CliError> {
-        let mut written = Vec::new();
+    /// Returns the path and the content of the review page if `--review` names a file, and of the summary with its
+    /// pictures if `--summary` is given.
+    fn pages(&self, report: &CheckOutcome) -> Vec<(PathBuf, Vec<u8>)> {
+        let mut pages = Vec::new();
         if let Some(Some(file)) = &self.review {
-            written.push((file.clone(), page.into_bytes()));
+            pages.push((file.clone(), review::page(report, &self.folders).into_bytes()));
+        }
+        if let Some(file) = &self.summary {
+            let folder = format!("{}-pictures", stem(file).replace(['<', '>'], "-"));
+            let (text, pictures) = summary::markdown(report, &folder);
+            pages.push((file.clone(), text.into_bytes()));
+            pages.extend(pictures.into_iter().map(|(name, png)| (file.with_file_name(&folder).join(name), png)));
+        }
+        pages
+    }
+
+    /// Writes the pages, and the JUnit file if `--junit` is given.
+    fn write_reports(&self, report: &CheckOutcome, mut written: Vec<(PathBuf, Vec<u8>)>) -> Result<(), CliError> {
+        if let Some((picture, _)) = written.iter().find(|(file, _)| file.extension().is_some_and(|e| e == "png")) {
+            destination::make_folder(picture.parent().unwrap_or(Path::new("")))?;
         }
         if let Some(file) = &self.junit {
             written.push((file.clone(), ci::junit(report).into_bytes()));
@@ -163,7 +179,8 @@ impl Snapshot {
                  --accept-in-ci if this is meant",
             );
         }
-        let outputs: Vec<PathBuf> = self.review.iter().flatten().chain(&self.junit).cloned().collect();
+        let outputs: Vec<PathBuf> =
+            self.review.iter().flatten().chain(&self.summary).chain(&self.junit).cloned().collect();
         destination::refuse_overwrites(&outputs, &[])
     }
 

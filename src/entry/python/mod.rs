@@ -24,6 +24,7 @@ use crate::mechanics::scene::format::{SceneFile, parsed};
 use crate::mechanics::scene::{Scene, SceneError, isolate};
 use crate::pictures::drawing::Theme;
 use crate::products::result::{self, Layout, Timing};
+use crate::products::snapshot::assertion;
 
 request! {
     /// What an analysis computes, and how its problems are reported.
@@ -133,6 +134,12 @@ impl Analysis {
     /// file. `request` are options of `render` as JSON, and the file extension `ending` selects the format.
     fn figure(&self, py: Python<'_>, request: &str, ending: &str, frame: Option<usize>) -> PyResult<Vec<u8>> {
         py.detach(|| figure::drawn(&self.analysis, request, ending, frame)).map_err(|why| fault(py, &why))
+    }
+
+    /// Compares the result with its references: `base.txt`, `base.svg` and `base.png`. Returns the differences in lines,
+    /// or, with `accepts`, writes them as references.
+    fn snapshot(&self, py: Python<'_>, base: std::path::PathBuf, accepts: bool) -> Vec<String> {
+        py.detach(|| assertion::analysis(&base, &self.analysis, accepts)).err().unwrap_or_default()
     }
 
     /// Writes a report on the scene to the file `path`. `name` and `text` are the name and the content of the scene

@@ -18,12 +18,15 @@ use std::path::{Component, Path, PathBuf};
 use super::check::{self, check};
 use super::discovery::{discover, settings_in};
 use super::layer::Layer;
-use super::outcome::{Acceptance, CheckOutcome, Snapshot, folders};
-use super::reference::parts;
+use super::outcome::{Acceptance, CheckOutcome, Finding, Snapshot, folders};
+use super::reference::{Part, parts};
 use super::setting::{self, Settings};
 use super::store::{self, Access};
+use crate::mechanics::analysis::Analysis;
 use crate::pictures::drawing::Drawing;
 
+/// What accepts changes, for messages.
+const UPDATE: &str = "UPDATE_SNAPSHOTS=1";
 /// The folder for the references of figures, relative to the crate.
 const FIGURE_FOLDER: &str = "tests/snapshots";
 
@@ -106,8 +109,11 @@ pub fn scenes(crate_folder: &Path, path: &Path) {
     let files = found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file);
     let lock = store::lock_folders(folders(files), access());
     let report = check(found, &|_| {});
-    finish(report, &what);
+    let ended = finish(report, access(), &what, UPDATE);
     drop(lock);
+    if let Err(lines) = ended {
+        fail(&lines);
+    }
 }
 
 /// Implements [`assert_figure!`](crate::assert_figure). `name` is the file name of the references without extension.
@@ -125,25 +131,53 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
         )]);
     }
     let base = place(crate_folder, &Path::new(FIGURE_FOLDER).join(name));
-    let folder = base.parent().unwrap_or(crate_folder).to_owned();
-    let settings = setting::nearest(&folder).map_or_else(|| Ok(Settings::default()), |file| settings_in(&file));
-    let settings = settings.unwrap_or_else(|errors| fail(&errors));
-    let mut parts = parts(&base, &settings);
-    parts.retain(|p| p.layer != Layer::Facts && p.kind == settings.kinds[0] && p.theme == settings.themes[0]);
+    let find = |parts: &mut Vec<Part>, settings: &Settings| {
+        parts.retain(|p| p.layer != Layer::Facts && p.kind == settings.kinds[0] && p.theme == settings.themes[0]);
+        check::check_drawing(drawing, parts, settings)
+    };
+    let what = format!("the figure {}", name.display());
+    if let Err(lines) = compared(&base, access(), (&what, UPDATE), find) {
+        fail(&lines);
+    }
+}
+
+/// Compares an analysis with its references, as `drystone snapshot` compares a scene: `base.txt`, `base.svg` and
+/// `base.png`. With `accepts`, writes the references that differ, unless the environment variable `CI` is set. The
+/// fixture of pytest in the Python package calls this function.
+///
+/// # Errors
+/// The differences in lines, or why the settings are not valid.
+pub fn analysis(base: &Path, analysis: &Analysis, accepts: bool) -> Result<(), Vec<String>> {
+    let access = if accepts && may_write() { Access::Write } else { Access::Read };
+    let find = |parts: &mut Vec<Part>, settings: &Settings| check::check_analysis(analysis, parts, settings);
+    let what = base.display().to_string();
+    compared(base, access, (&what, "--drystone-accept"), find)
+}
+
+/// Compares the results that `find` compares with the references of `base`. The words are the name of the results and
+/// the option that accepts changes.
+fn compared(
+    base: &Path,
+    access: Access,
+    (what, option): (&str, &str),
+    find: impl FnOnce(&mut Vec<Part>, &Settings) -> Vec<Finding>,
+) -> Result<(), Vec<String>> {
+    let folder = base.parent().unwrap_or(Path::new(".")).to_owned();
+    let settings = setting::nearest(&folder).map_or_else(|| Ok(Settings::default()), |file| settings_in(&file))?;
+    let mut parts = parts(base, &settings);
     if may_write() {
         // Ignore an error here: writing the files below then fails and reports it.
         let _ = std::fs::create_dir_all(&folder);
     }
-    let lock = store::lock_folders([folder], access());
-    let snapshot = Snapshot {
-        name: name.display().to_string(),
-        scene: None,
-        references: parts.iter().map(|p| p.file.clone()).collect(),
-        findings: check::check_drawing(drawing, &parts, &settings),
-    };
+    let lock = store::lock_folders([folder], access);
+    let findings = find(&mut parts, &settings);
+    let name = base.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let references = parts.into_iter().map(|part| part.file).collect();
+    let snapshot = Snapshot { name, scene: None, references, findings };
     let report = CheckOutcome { snapshots: vec![snapshot], ..CheckOutcome::default() };
-    finish(report, &format!("the figure {}", name.display()));
+    let ended = finish(report, access, what, option);
     drop(lock);
+    ended
 }
 
 /// Joins the folder of the crate and a path relative to it. `crate_folder` is the folder at compile time. If it does
@@ -165,11 +199,11 @@ fn access() -> Access {
     if store::update_requested() && may_write() { Access::Write } else { Access::Read }
 }
 
-#[track_caller]
-fn finish(mut report: CheckOutcome, what: &str) {
-    let accepts = access() == Access::Write;
+/// Writes what may be written, and describes the differences that remain.
+fn finish(mut report: CheckOutcome, access: Access, what: &str, option: &str) -> Result<(), Vec<String>> {
+    let accepts = access == Access::Write;
     if report.matches() && !may_write() {
-        return;
+        return Ok(());
     }
     let failing: Vec<PathBuf> = report.failing().flat_map(|s| s.findings.iter().map(|f| f.file.clone())).collect();
     let mut lines = Vec::new();
@@ -181,7 +215,7 @@ fn finish(mut report: CheckOutcome, what: &str) {
         }
     }
     if report.matches() && unwritten.is_empty() {
-        return;
+        return Ok(());
     }
     lines.push(format!("{what} differs from its references ({}).", report.summary()));
     lines.extend(report.lines());
@@ -193,9 +227,9 @@ fn finish(mut report: CheckOutcome, what: &str) {
         let others = failing.iter().map(|file| store::new_file(file));
         let first = pictures.chain(others).find(|file| file.exists());
         lines.extend(first.map(|file| format!("Look at {}.", file.display())));
-        lines.push("If the change is intended, run the test again with UPDATE_SNAPSHOTS=1.".into());
+        lines.push(format!("If the change is intended, run the test again with {option}."));
     }
-    fail(&lines);
+    Err(lines)
 }
 
 #[track_caller]

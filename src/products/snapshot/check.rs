@@ -54,14 +54,18 @@ pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
 }
 
 fn check_scene(job: &Job) -> Vec<Finding> {
-    let analysis = Analysis::new(Arc::clone(&job.scene));
+    check_analysis(&Analysis::new(Arc::clone(&job.scene)), &job.parts, &job.settings)
+}
+
+/// Compares the facts and drawings of an analysis with its references.
+pub(super) fn check_analysis(analysis: &Analysis, parts: &[Part], settings: &Settings) -> Vec<Finding> {
     let mut findings = Vec::new();
     // Keep the SVG text of the last figure, because the SVG layer and all widths of the pixel layer use the same
     // text.
     let mut drawn: Option<(&Part, String)> = None;
-    for part in &job.parts {
+    for part in parts {
         if part.layer == Layer::Facts {
-            let facts = Facts::new(&analysis, job.settings.digits);
+            let facts = Facts::new(analysis, settings.digits);
             findings.extend(facts_finding(part, &facts));
             continue;
         }
@@ -70,9 +74,9 @@ fn check_scene(job: &Job) -> Vec<Finding> {
             // The first theme of all stands for the default, which is another theme for scenes on a lattice.
             let theme = Theme::named(&part.theme).filter(|_| part.theme != Theme::NAMES[0]).unwrap_or_default();
             let options = Options { theme, ..Options::default() };
-            (part, svg::write(&figure::draw(&analysis, part.kind, &options)))
+            (part, svg::write(&figure::draw(analysis, part.kind, &options)))
         }));
-        findings.extend(drawing_finding(part, text, &job.settings));
+        findings.extend(drawing_finding(part, text, settings));
     }
     findings
 }

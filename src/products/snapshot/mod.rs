@@ -15,7 +15,7 @@
 //! | [`picture`] | differences in the pixels | two pictures |
 //! | [`check`](mod@check) | the findings: all references that differ | all of these |
 //! | [`store`] | files: references, `.new.*` and `.diff.png` | findings |
-//! | [`review`], [`ci`] | a review page, JUnit XML, annotations, JSON | findings |
+//! | [`review`], [`summary`], [`ci`] | a review page, Markdown, JUnit XML, annotations, JSON | findings |
 
 pub mod assertion;
 pub mod check;
@@ -29,6 +29,7 @@ pub mod reference;
 pub mod review;
 pub mod setting;
 pub mod store;
+pub mod summary;
 pub mod svg;
 
 pub use check::check;

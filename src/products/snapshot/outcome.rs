@@ -9,7 +9,7 @@ use crate::mechanics::scene::{Code, Problem, SceneError};
 use crate::pictures::output::file::WriteError;
 
 /// Largest number of changes of one file that a message lists. All further changes are only counted.
-const MAX_LISTED_CHANGES: usize = 12;
+pub(super) const MAX_LISTED_CHANGES: usize = 12;
 
 /// Returns the folders of the files, sorted and without duplicates.
 pub(crate) fn folders<'f>(files: impl IntoIterator<Item = &'f PathBuf>) -> Vec<PathBuf> {
@@ -67,6 +67,19 @@ pub struct Finding {
     pub difference: Option<Vec<u8>>,
     /// The new picture as PNG, if the reference stores only a hash of its pixels.
     pub picture: Option<Vec<u8>>,
+}
+
+impl Finding {
+    /// Returns the expected picture, the difference and the new picture as PNG, each with its name in reports. The
+    /// expected picture is left out if it cannot be read, or only its hash is stored.
+    pub(super) fn pictures(&self) -> [(&'static str, Option<&[u8]>); 3] {
+        let found = self.picture.as_ref().unwrap_or(&self.fresh);
+        [
+            ("Expected", self.expected.as_deref().filter(|_| self.difference.is_some())),
+            ("Difference", self.difference.as_deref()),
+            ("Found", Some(found.as_slice()).filter(|found| !found.is_empty())),
+        ]
+    }
 }
 
 /// A scene or figure with the references that do not match.

@@ -120,14 +120,7 @@ fn words(finding: &Finding) -> Markup {
 }
 
 fn pictures(finding: &Finding) -> Markup {
-    // Show the reference only if it is a picture: it may be a hash, or a file that cannot be read.
-    let expected = finding.expected.as_deref().filter(|_| finding.difference.is_some());
-    let found = finding.picture.as_ref().unwrap_or(&finding.fresh);
-    let shown = [
-        ("Expected", expected),
-        ("Difference", finding.difference.as_deref()),
-        ("Found", Some(found.as_slice()).filter(|f| !f.is_empty())),
-    ];
+    let shown = finding.pictures();
     html! {
         div.three {
             @for (what, bytes) in shown {
@@ -136,7 +129,7 @@ fn pictures(finding: &Finding) -> Markup {
                 }
             }
         }
-        @if let Some(expected) = expected {
+        @if let Some(expected) = shown[0].1 {
             div.onion {
                 div.controls {
                     span { "expected" }
