@@ -272,12 +272,21 @@ fn interactive_figures_need_the_script_of_the_same_version_in_an_html_report() {
         assert!(page.contains("worker-src blob:"), "{script}");
         assert!(page.contains("data-step=\"1\""), "{script}");
     }
+    // Without a file: beside the program.
+    let copy = folder.path("drystone");
+    fs::copy(env!("CARGO_BIN_EXE_drystone"), &copy).expect("copied");
+    fs::copy(folder.path("pkg/interactive.js"), folder.path("interactive.js")).expect("copied");
+    let mut command = Command::new(copy);
+    command.args(["report", "a.json", "-o", "beside.html", "--interactive"]).current_dir(folder.path(""));
+    let made = command.output().expect("it runs");
+    assert!(made.status.success() && folder.text("beside.html").contains("go(1 < 2);"));
     folder.done("report a.json -o plain.html");
     assert!(!folder.text("plain.html").contains("worker-src"));
     for (line, part) in [
         ("-o a.md --interactive pkg", "only an HTML report"),
         ("-o out --split --interactive pkg", "cannot be used with"),
-        ("-o b.html --interactive none", "build.sh"),
+        ("-o b.html --interactive none", "download interactive.js of the release v"),
+        ("-o b.html --interactive", "finds no interactive.js beside the program; download"),
         ("-o b.html --interactive old.js", "belongs to drystone 0.0.1"),
         ("-o b.html --interactive ends.js", "is not the script"),
         ("-o b.html --interactive other.js", "is not the script"),

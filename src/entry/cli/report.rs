@@ -38,10 +38,11 @@ pub(crate) struct Report {
     /// Output: a file that ends in .html, .md (with its figures next to it), .pdf or .json; with --split a folder
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Make the figures of an HTML report interactive: readers drag the stones. FILE is the script interactive.js, or
-    /// its folder; examples/playground/build.sh in the repository of drystone makes it
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["split", "compare"])]
-    interactive: Option<PathBuf>,
+    /// Make the figures of an HTML report interactive: readers drag the stones. FILE is the script interactive.js of a
+    /// release, or its folder. Without FILE, the script is searched beside the program, or in the Python package; put
+    /// the option after the scenes then
+    #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with_all = ["split", "compare"])]
+    interactive: Option<Option<PathBuf>>,
     /// Write an index and a page for each scene into the folder OUT
     #[arg(long)]
     split: bool,
@@ -78,8 +79,14 @@ pub(crate) struct Report {
 
 /// The name of the script file that `examples/playground/build.sh` makes.
 const SCRIPT_NAME: &str = "interactive.js";
-/// How to make the file, for error messages.
-const SCRIPT_MADE: &str = "examples/playground/build.sh in the repository of drystone makes it";
+/// The variable with the folder of the Python package, which the package sets.
+const SCRIPT_VARIABLE: &str = "DRYSTONE_INTERACTIVE";
+/// How to get the file, for error messages.
+const SCRIPT_MADE: &str = concat!(
+    "download interactive.js of the release v",
+    env!("CARGO_PKG_VERSION"),
+    " of drystone, or make it with examples/playground/build.sh in its repository"
+);
 
 /// The margins in a report, unless `--margins` requests all margins.
 const DEFAULT_MARGINS: [MarginKind; 3] = [MarginKind::LoadFactor, MarginKind::Friction, MarginKind::Tilt];
@@ -157,7 +164,7 @@ impl Report {
                 Err(format!("{shown}: only an HTML report can be interactive; give --output a name that ends in .html")
                     .into())
             }
-            Some(path) => script(path).map(Some),
+            Some(given) => script(given.as_deref()).map(Some),
             None => Ok(None),
         }
     }
@@ -169,7 +176,7 @@ impl Report {
             _ => self.output.clone(),
         };
         let inputs = tasks.iter().flat_map(Task::paths);
-        let inputs = inputs.chain(self.look.file()).chain(self.interactive.as_deref());
+        let inputs = inputs.chain(self.look.file()).chain(self.interactive.iter().flatten().map(PathBuf::as_path));
         let inputs: Vec<&Path> = inputs.collect();
         destination::refuse_overwrites(&[main], &inputs)
     }
@@ -387,12 +394,22 @@ fn make_figures_legible(
     }
 }
 
-/// Reads the script. `path` is the file, or the folder that contains it.
+/// Reads the script. `given` is the file, or the folder that contains it; `None` searches the folder of the program and
+/// the one that the Python package names.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read, is not this script, or belongs to another version of drystone.
-fn script(path: &Path) -> Result<String, CliError> {
-    let path = if path.is_dir() { path.join(SCRIPT_NAME) } else { path.to_owned() };
+fn script(given: Option<&Path>) -> Result<String, CliError> {
+    let package = std::env::var_os(SCRIPT_VARIABLE).map(PathBuf::from);
+    let program = std::env::current_exe().ok().and_then(|file| Some(file.parent()?.to_owned()));
+    let mut usual = package.into_iter().chain(program).map(|folder| folder.join(SCRIPT_NAME));
+    let path = match given {
+        Some(path) if path.is_dir() => path.join(SCRIPT_NAME),
+        Some(path) => path.to_owned(),
+        None => usual.find(|file| file.is_file()).ok_or_else(|| {
+            CliError::from(format!("--interactive finds no {SCRIPT_NAME} beside the program; {SCRIPT_MADE}"))
+        })?,
+    };
     let shown = path.display();
     let script =
         fs::read_to_string(&path).map_err(|error| CliError::not_read(&shown, format!("{error}; {SCRIPT_MADE}")))?;
