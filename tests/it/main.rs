@@ -52,6 +52,7 @@ mod pictures;
 mod placement;
 mod plan;
 mod polygons;
+mod preview;
 mod print;
 mod problems;
 mod mutant;

@@ -2,7 +2,7 @@
 //! browser.
 
 mod balance;
-mod browser;
+pub mod browser;
 mod digits;
 mod page;
 mod sheet;

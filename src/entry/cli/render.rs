@@ -2,6 +2,7 @@
 
 mod broken;
 mod output;
+mod preview;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -28,15 +29,15 @@ use crate::pictures::output::fonts::Fonts;
 use crate::products::figure;
 
 /// Draw scenes with their forces and failures as SVG, PNG, GIF, PDF or TikZ
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct Render {
     /// Scene files, or folders of them; - reads standard input
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
     /// The output: a .svg, .png, .gif, .pdf or .tikz file, a folder (existing, or ending in a slash), or - for
-    /// standard output
-    #[arg(short, long, value_name = "OUT")]
-    output: PathBuf,
+    /// standard output; may be left out with --serve
+    #[arg(short, long, value_name = "OUT", required_unless_present = "serve")]
+    output: Option<PathBuf>,
     #[command(flatten)]
     draw: DrawArgs,
     /// Write every panel of a strip to a separate file, with its letter after the name
@@ -53,6 +54,11 @@ pub(crate) struct Render {
     /// Draw again whenever a scene or the style file changes, until the program is stopped
     #[arg(long)]
     watch: bool,
+    /// With --watch: show the figures on a page of this machine, http://127.0.0.1:PORT, which follows each save and
+    /// shows problems at their place; put this option after the scenes
+    #[arg(long, value_name = "PORT", num_args = 0..=1, requires = "watch", value_parser = port)]
+    #[arg(conflicts_with_all = ["animate", "panels", "pages", "broken"])]
+    serve: Option<Option<u16>>,
     /// Draw only one frame: its number from 1, its letter in the strip, or last
     #[arg(long, value_name = "N")]
     frame: Option<FrameChoice>,
@@ -76,13 +82,17 @@ impl Render {
         if files.iter().any(|file| file == Path::new("-")) {
             return Err(vec!["--watch needs files; standard input (-) cannot be read again".into()]);
         }
+        let scenes = files.clone();
         files.extend(self.draw.look.file().map(Path::to_path_buf));
+        if let Some(port) = self.serve {
+            return preview::serve(self, port, (&files, &scenes), terminal);
+        }
         watch::repeat(&files, terminal, || self.once(terminal))
     }
 
     /// Draws all figures once: checks the options, reads the scenes, draws in parallel, and writes the files.
     fn once(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let destination = Destination::from_path(&self.output);
+        let destination = Destination::from_path(self.output.as_deref().unwrap_or(Path::new("-")));
         let format = destination.format(self.draw.picture.requested_format())?;
         self.draw.check(format)?;
         let scenes = source::files(&self.scenes)?;
@@ -296,4 +306,8 @@ impl Render {
             summary: summary(&joined),
         })
     }
+}
+
+fn port(typed: &str) -> Result<u16, String> {
+    typed.parse().map_err(|_| "a port is a number up to 65535; put --serve after the scenes".into())
 }

@@ -138,6 +138,11 @@ impl Terminal {
     }
 }
 
+/// Returns the text of a page without escape codes.
+pub(crate) fn uncoloured(page: &Page) -> String {
+    anstream::adapter::strip_str(page.text()).to_string()
+}
+
 /// Returns the number of columns of standard error; `None` if it is not a terminal.
 pub(crate) fn error_width() -> Option<usize> {
     columns(terminal_size::terminal_size_of(io::stderr()))

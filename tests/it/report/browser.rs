@@ -99,8 +99,12 @@ impl Browser {
 
     /// Opens a file and waits until it has loaded.
     pub fn go(&mut self, file: &Path) {
+        self.visit(&format!("file://{}", file.display()));
+    }
+
+    /// Opens an address and waits until it has loaded.
+    pub fn visit(&mut self, url: &str) {
         self.events.clear();
-        let url = format!("file://{}", file.display());
         self.call("Page.navigate", json!({ "url": url }));
         while !self.events.iter().any(|e| e["method"] == "Page.loadEventFired") {
             self.next();

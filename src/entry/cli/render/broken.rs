@@ -52,7 +52,7 @@ impl Render {
 
     /// Reads one scene and draws its outlines. The outer error, such as a file that cannot be read, ends the command.
     /// The inner error means that the program itself failed on this scene; other scenes can still be drawn.
-    fn sketch(
+    pub(super) fn sketch(
         &self,
         path: &Path,
         options: &figure::Options,
