@@ -10,12 +10,12 @@
 //! | `column` | the coefficients of each force in the equilibrium equations |
 //! | `scale` | metres and newtons to numbers without units, and back |
 //! | `pose` | the optimisation problems for the solvers |
-//! | `parallel_joints` | the program with nearly parallel joints made parallel |
+//! | `simpler` | the program with nearly parallel joints made parallel, or without slight loads |
 
 mod column;
 mod pose;
 mod scale;
-mod parallel_joints;
+mod simpler;
 #[cfg(test)]
 mod tests;
 

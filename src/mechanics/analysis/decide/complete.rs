@@ -33,7 +33,7 @@ impl Component<'_> {
         }
         // The program of least force is not solved again if it ended without a result before.
         if outcome.least_force_failed {
-            return self.with_forces_of_parallel_joints(program, outcome);
+            return self.with_forces_of_simpler_programs(program, outcome);
         }
         // The first solver settings were tried before, so they are skipped. Exception: if a large component was decided
         // by least residual, they were not tried to the end.
@@ -61,28 +61,28 @@ impl Component<'_> {
         if is_late() {
             return outcome;
         }
-        self.with_forces_of_parallel_joints(program, outcome)
+        self.with_forces_of_simpler_programs(program, outcome)
     }
 
-    /// Replaces the forces of an outcome by those of the program with nearly parallel joints made exactly parallel, if
-    /// these have a smaller sum. They are changed as little as possible, so that they balance in the real program.
+    /// Replaces the forces of an outcome by those of a simpler program, if these have a smaller sum: the program with
+    /// nearly parallel joints made exactly parallel, or without slight loads. They are changed as little as possible, so
+    /// that they balance in the real program.
     ///
     /// Rounded coordinates turn a stone between parallel faces into a slender wedge, for which the program of least
-    /// force ends without a result.
-    fn with_forces_of_parallel_joints(&self, program: &Program, mut outcome: Outcome) -> Outcome {
-        let Some(simpler) = program.with_parallel_joints() else {
-            return outcome;
-        };
-        let solved = balance_in(&simpler, self.settings[0]);
-        outcome.effort = outcome.effort.plus(solved.effort);
-        let near = solved.forces.and_then(|amounts| rebalance_absolute(program, &amounts, &mut outcome.effort));
-        let proved = near.map(|amounts| self.prove_forces(amounts));
-        let better =
-            |proved: &ProvedForces| self.accepts(&proved.proof) && proved.amounts.total() < outcome.amounts.total();
-        if let Some(proved) = proved.filter(better) {
-            let (force_bound, least_force) = self.bound_force_sum(solved.witness.as_deref(), &proved.forces);
-            outcome.stand(proved);
-            return Outcome { force_bound, least_force, ..outcome };
+    /// force ends without a result. So may a load of 10⁻⁷ of the weights on a wall that robots hold.
+    fn with_forces_of_simpler_programs(&self, program: &Program, mut outcome: Outcome) -> Outcome {
+        for simpler in program.simpler() {
+            let solved = balance_in(&simpler, self.settings[0]);
+            outcome.effort = outcome.effort.plus(solved.effort);
+            let near = solved.forces.and_then(|amounts| rebalance_absolute(program, &amounts, &mut outcome.effort));
+            let proved = near.map(|amounts| self.prove_forces(amounts));
+            let better =
+                |proved: &ProvedForces| self.accepts(&proved.proof) && proved.amounts.total() < outcome.amounts.total();
+            if let Some(proved) = proved.filter(better) {
+                (outcome.force_bound, outcome.least_force) =
+                    self.bound_force_sum(solved.witness.as_deref(), &proved.forces);
+                outcome.stand(proved);
+            }
         }
         outcome
     }

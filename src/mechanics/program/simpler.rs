@@ -1,4 +1,5 @@
-//! [`Program::with_parallel_joints`] makes nearly parallel or perpendicular joints exactly parallel or perpendicular.
+//! [`Program::simpler`]: programs that differ from a program only by rounding or by slight loads, and that solvers solve
+//! more easily.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -13,14 +14,34 @@ const PARALLEL_TOL: f64 = 1e-5;
 /// Rotations below this, in radians, are the rounding of the angles themselves.
 const ROUNDING_TOL: f64 = 1e-12;
 
+/// Components of loads below this fraction of the largest component are slight: a thousand times the tolerance of
+/// solvers, so that a load that is not slight has three correct digits.
+const SLIGHT_LOAD: f64 = 1e-6;
+
 impl Program {
+    /// Returns this program with parallel joints, and without slight loads, if it differs from them.
+    pub fn simpler(&self) -> impl Iterator<Item = Program> {
+        [self.with_parallel_joints(), self.without_slight_loads()].into_iter().flatten()
+    }
+
+    /// Returns the program without slight loads. `None` if there are none.
+    ///
+    /// A load of 10⁻⁷ of the weights may need forces of robots that balance nothing else. The program of least force
+    /// then ends without a result. Without this load it has one.
+    fn without_slight_loads(&self) -> Option<Program> {
+        let largest = self.loads.iter().fold(0.0, |most: f64, load| most.max(load.abs()));
+        let plain = |load: &f64| if load.abs() < SLIGHT_LOAD * largest { 0.0 } else { *load };
+        let loads: Vec<f64> = self.loads.iter().map(plain).collect();
+        (loads != self.loads).then(|| Program { loads, ..self.clone() })
+    }
+
     /// Returns the program with all nearly parallel or perpendicular joints made exactly parallel or perpendicular.
     /// `None` if this changes no joint.
     ///
     /// A block between two faces that are parallel up to an angle of 10⁻⁶ is a very slender wedge. The faces open with
     /// a speed of 1 only if the block moves with a speed of 10⁶, so the solver ends without a result. It solves the
     /// program if the faces are exactly parallel.
-    pub fn with_parallel_joints(&self) -> Option<Program> {
+    fn with_parallel_joints(&self) -> Option<Program> {
         let normals: Vec<Vector> = self.contacts.iter().map(|c| c.normal).collect();
         let alignment_angles = alignment_angles(&normals);
         if alignment_angles.iter().all(|turn| turn.abs() <= ROUNDING_TOL) {
