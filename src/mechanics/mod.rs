@@ -7,13 +7,13 @@ pub mod scene;
 
 pub mod statics;
 
+pub mod proof;
+
 pub mod program;
 
 pub mod solve;
 
 pub mod wedge;
-
-pub mod proof;
 
 pub mod analysis;
 

@@ -63,8 +63,8 @@ pub use strategy::Method;
 const MIN_SHOWN_SPEED: f64 = 1e-7;
 
 /// Components of a velocity that are smaller than this are reported as 0, because they are rounding errors of the
-/// solver.
-const SPEED_NOISE: f64 = 1e-9;
+/// solver. A motion in which the point of a force is slower does not limit this force.
+pub(super) const SPEED_NOISE: f64 = 1e-9;
 
 /// The verdict on one component, its proof, and all other results. Forces are in the order of its contacts and grips.
 ///

@@ -223,11 +223,11 @@ pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
 }
 
 /// A grip whose limit exceeds this multiple of the moving loads counts as unlimited: in a valid motion, its grip point
-/// must not move in the direction of this limit.
+/// must not move in the direction of this limit. Motions of solvers are corrected in the same way.
 ///
 /// A tenth of this value would reject motions in which a robot that can hold a thousand times the load gives way. With
 /// ten times this value, the rounding of a speed (10⁻¹⁵) times the limit would be a noticeable power.
-const NON_BINDING_RATIO: f64 = 1e4;
+pub(in crate::mechanics) const NON_BINDING_RATIO: f64 = 1e4;
 
 /// Checks forces on an assembly, and returns the largest errors: imbalance of a body, tension, slip, and excess over
 /// the limits of a robot.

@@ -122,8 +122,22 @@ pub struct Balance {
     /// work against each unit force is at most its cost, except for robots at their limits. The bound is the work of
     /// the loads, minus the excess work against these robots.
     pub witness: Option<Vec<f64>>,
+    /// The result of the program of least adhesion, if forces or motion come from it.
+    pub least_adhesion: Option<LeastAdhesion>,
     /// The number of programs and iterations that were needed.
     pub effort: Effort,
+}
+
+impl From<LeastAdhesion> for Balance {
+    fn from(found: LeastAdhesion) -> Balance {
+        Balance {
+            forces: (found.balanced == Some(true)).then(|| found.forces.clone()),
+            motion: found.motion.clone(),
+            witness: None,
+            effort: found.effort,
+            least_adhesion: Some(found),
+        }
+    }
 }
 
 /// The least adhesion with which every block of a program is balanced, with the forces of that balance and a motion.

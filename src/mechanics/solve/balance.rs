@@ -16,6 +16,7 @@ use super::{
     solve_with_retry,
 };
 use crate::mechanics::program::{Program, QuadraticProgram, columns, kinematic_dual};
+use crate::mechanics::proof::Proof;
 
 /// Margins of [`Dual::active`] that are tried in turn for the face of optima, dimensionless.
 ///
@@ -40,7 +41,7 @@ const ROUGH_COST_TOL: f64 = 1e-6;
 
 /// The largest residual that a balance may leave after the least-squares problem, relative to the largest load: half of
 /// what a proof allows.
-const BALANCE_TOL: f64 = 5e-8;
+const BALANCE_TOL: f64 = 0.5 * Proof::IMBALANCE_TOL;
 
 /// The largest number of iterations for a program of many blocks with plain conditioning.
 ///
@@ -103,7 +104,7 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
     // Step 1: solve the kinematic dual.
     let whole = Face::whole(&program.loads, columns(program));
     let (solved, face_settings) = solve_dual(program, &whole, settings, max_iterations, &mut effort);
-    let mut found = Balance { forces: None, motion: None, witness: None, effort };
+    let mut found = Balance { effort, ..Balance::default() };
     let motion = || Some(solved.y.iter().map(|v| -v).collect());
     match solved.status {
         Status::Solved => {
@@ -169,9 +170,9 @@ fn balance_by_levels(
     let (forces, _) = with_least_squares(face, light, settings, effort).to_forces(program);
     Some(Balance {
         forces: Some(forces),
-        motion: None,
         witness: Some(optimum.y.iter().map(|v| -v).collect()),
         effort: *effort,
+        ..Balance::default()
     })
 }
 

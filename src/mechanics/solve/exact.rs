@@ -6,6 +6,7 @@
 //! Matrix Computations, 2013, §3.4 (partial pivoting), §4.2 (Cholesky) and §5.5 (rank deficiency).
 
 use super::amounts::largest;
+use super::settings::TOLERANCE;
 use crate::mechanics::program::{Column, product};
 
 /// The largest number of rows. Larger systems are solved by the sparse solver, because the work of dense elimination
@@ -19,14 +20,10 @@ const MAX_ROWS: usize = 120;
 /// times larger, columns of short contacts would be refused.
 const PIVOT_TOL: f64 = 1e-7;
 
-/// Residuals and negative amounts up to this fraction of the largest load count as rounding. It equals the solver's
-/// tolerance.
-const ROUNDING_TOL: f64 = 1e-9;
-
 /// The tolerance for residuals and negative amounts in the least-squares problem, as a fraction of the largest load.
 ///
-/// It can be stricter than [`ROUNDING_TOL`]: [`proved_optimum`] checks each result, and the solver is used if the check
-/// fails.
+/// It can be stricter than [`TOLERANCE`], up to which residuals and negative amounts of a unique balance count as
+/// rounding: [`proved_optimum`] checks each result, and the solver is used if the check fails.
 const STRICT_TOL: f64 = 1e-12;
 
 /// Computes the amounts of the columns that balance the loads, if they are unique, by Gaussian elimination with partial
@@ -57,7 +54,7 @@ pub(super) fn unique_balance(loads: &[f64], columns: &[Column]) -> Option<Vec<f6
         let known: f64 = (j + 1..n).map(|k| table[j * width + k] * amounts[k]).sum();
         amounts[j] = (table[j * width + n] - known) / table[j * width + j];
     }
-    let tolerance = ROUNDING_TOL * largest(loads);
+    let tolerance = TOLERANCE * largest(loads);
     let is_balanced = (n..rows).all(|row| table[row * width + n].abs() <= tolerance);
     let is_admissible = amounts.iter().zip(columns).all(|(a, c)| *a >= -tolerance && *a <= c.limit + tolerance);
     (is_balanced && is_admissible).then(|| amounts.iter().map(|a| a.max(0.0)).collect())
@@ -149,7 +146,7 @@ fn proved_optimum(loads: &[f64], columns: &[Column], amounts: &[f64], in_use: &[
     let kept: Vec<f64> = both().map(|(a, in_use)| if *in_use { a.max(0.0) } else { 0.0 }).collect();
     // Dropped columns must have gᵀy ≤ 0. The amounts of the other columns must be within their limits and balance the
     // loads.
-    let is_optimal = both().all(|(a, in_use)| *in_use || *a <= ROUNDING_TOL * scale);
+    let is_optimal = both().all(|(a, in_use)| *in_use || *a <= TOLERANCE * scale);
     let is_admissible = kept.iter().zip(columns).all(|(a, c)| *a <= c.limit);
     let mut residual = loads.to_vec();
     let forces = columns.iter().zip(&kept);

@@ -18,7 +18,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::basis_factor::{elimination_order, placed};
 use super::dual::{ReducedColumns, columns_in, from_kinematic_answer};
 use super::limit::farthest_cost;
-use super::simplex::{Move, Simplex, Variable};
+use super::simplex::{MIN_PIVOT, Move, Simplex, Variable};
 use super::{Amounts, Conditioning, Dual, Status, TOLERANCE, is_late, largest, solve};
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::mechanics::program::{Column, Force, Program, kinematic_dual};
@@ -50,11 +50,6 @@ pub struct PolygonCorner {
 /// angles are normals of edges only by chance, unlike the axes. They are 60° apart, so one of them suits every polygon
 /// that is unbounded in a range of directions of at most 120°.
 const FIRST_ANGLES: [f64; 6] = [1.747, 0.7, 2.794, -0.347, -2.442, -1.395];
-
-/// Changes of the force F up to this, per unit of an amount, count as rounding. Most changes are near 1, and their
-/// rounding is about 1e-13. With 1e-11, rounding could choose a column; with 1e-7, edges of columns with little
-/// influence would be missed.
-const MIN_CHANGE: f64 = 1e-9;
 
 /// Normals that differ by at most this angle, in radians, belong to one edge. The error of a corner is at most this
 /// angle times the length of an edge. With 1e-11, rounding would divide edges; with 1e-7, corners could be lost.
@@ -245,7 +240,7 @@ impl Walk<'_> {
             let changes = self.changes();
             let gain = |change: &Change| change.force.dot(&self.normal);
             let best = changes.iter().max_by(|a, b| gain(a).total_cmp(&gain(b)));
-            match best.filter(|change| gain(change) > MIN_CHANGE) {
+            match best.filter(|change| gain(change) > MIN_PIVOT) {
                 Some(change) => self.move_to_end(change)?,
                 None => return Some(()),
             }
@@ -318,7 +313,7 @@ impl Walk<'_> {
             for (row, value) in &variable.column {
                 force -= Vector::new(x[*row], y[*row]) * (sign * value);
             }
-            (force.norm() > MIN_CHANGE).then_some(Change { variable: k, sign, force })
+            (force.norm() > MIN_PIVOT).then_some(Change { variable: k, sign, force })
         };
         (0..self.forces.len()).filter_map(change).collect()
     }

@@ -3,15 +3,13 @@
 //!
 //! Reference: Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12.
 
+use super::settings::ROUNDING_TOL;
 use super::{Conditioning, Effort, SolverSettings, Status, largest, remainder, solve_with_retry};
 use crate::mechanics::program::{Column, Correction, least_norm, least_squares};
 
 /// The largest number of rounds of [`refine_balance`]. Each round adds about nine correct digits, so two
 /// rounds reach the precision of f64.
 const MAX_ROUNDS: usize = 2;
-
-/// A residual up to this fraction of the largest load counts as rounding, and is not reduced further.
-const ROUNDING_TOL: f64 = 1e-14;
 
 /// Adds to the amounts the change of least Σ change² that removes their residual. This takes one linear system.
 ///

@@ -78,9 +78,6 @@ const MAX_BASIC_SLACK: f64 = 0.5;
 const CROSSOVER: CrossoverTolerance =
     CrossoverTolerance { tolerance_factor: 1e-2, max_slack: 1.2 * MAX_BASIC_SLACK * SUM_TOL_MANY, early_factor: 3.0 };
 
-/// A block whose load is below this fraction of the largest is light.
-const LIGHT_LOAD: f64 = 1e-3;
-
 /// Margins of [`Dual::active`], tried in turn: if a margin of 1 drops a needed column, a larger margin keeps it.
 const ACTIVE_MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
 
@@ -192,7 +189,7 @@ fn crossover(loads: &[f64]) -> CrossoverTolerance {
     let bodies = loads.chunks_exact(3).map(|load| libm::hypot(load[0], load[1]));
     let lightest = bodies.filter(|load| *load > 0.0).fold(f64::INFINITY, f64::min);
     CrossoverTolerance {
-        early_factor: if lightest < LIGHT_LOAD * largest(loads) { 0.0 } else { CROSSOVER.early_factor },
+        early_factor: if lightest < level::WIDE_LOAD_RATIO * largest(loads) { 0.0 } else { CROSSOVER.early_factor },
         ..CROSSOVER
     }
 }

@@ -14,7 +14,7 @@
 
 use super::dual::{ScaledProgram, amounts_of_rows};
 use super::{
-    Amounts, Balance, Conditioning, Status, balance_by_least_change, largest, remainder, solve_static_form,
+    Amounts, Balance, Conditioning, Status, TOLERANCE, balance_by_least_change, largest, remainder, solve_static_form,
     solve_with_retry,
 };
 use crate::mechanics::program::{Program, least_residual_dual};
@@ -23,9 +23,6 @@ use crate::mechanics::program::{Program, least_residual_dual};
 ///
 /// It is ten times the 1e-7 within which a proof accepts forces as balanced.
 const MIN_POWER: f64 = 1e-6;
-
-/// The residual up to which forces count as a balance, relative to the largest load: the solver's tolerance.
-const BALANCE_TOL: f64 = 1e-9;
 
 /// Finds forces that balance the loads, or a motion that proves that no forces balance them. With this motion, the
 /// forces are zero if the motion is strong enough to exclude a balance, otherwise `None`.
@@ -39,7 +36,7 @@ pub fn any_balance(program: &Program) -> Balance {
         Status::Solved => {
             let settings = Conditioning::Plain.into();
             let amounts = balance_by_least_change(loads, columns, balance.amounts, settings, &mut found.effort);
-            let is_balanced = largest(&remainder(loads, columns, &amounts)) <= BALANCE_TOL;
+            let is_balanced = largest(&remainder(loads, columns, &amounts)) <= TOLERANCE;
             found.forces = is_balanced.then(|| scaled.forces(amounts));
         }
         Status::Unbounded => {

@@ -29,7 +29,8 @@ use super::{
 use crate::geometry::CompensatedSum;
 use crate::mechanics::program::{Column, QuadraticProgram};
 
-/// The optimum needs refinement by levels if the lightest load is below this fraction of the heaviest.
+/// The optimum needs refinement by levels if the lightest load, or the least sum of adhesion, is below this fraction of
+/// the heaviest load: it would have fewer than six correct digits. A block below it is light.
 pub(super) const WIDE_LOAD_RATIO: f64 = 1e-3;
 
 /// The largest number of levels. Loads that span twelve powers of ten need four.
@@ -283,10 +284,6 @@ impl Level {
     }
 }
 
-/// If the least sum of adhesion is below this fraction of the largest load, the optimum is refined until forces of the
-/// size of this sum are accurate.
-const SMALL_ADHESION: f64 = 1e-3;
-
 /// A least sum of adhesion below this fraction of the largest load counts as 0: it is the rounding of the loads.
 ///
 /// A push on a heavy stone without friction needs adhesion, even if the push is far below the solver's tolerance.
@@ -313,7 +310,7 @@ fn smallest_accurate_force(loads: &[f64], least_sum: f64, has_many_blocks: bool)
     let largest_load = largest(loads);
     let light = lightest(loads);
     let zero_tol = if has_many_blocks { ZERO_ADHESION_MANY } else { ZERO_ADHESION };
-    let is_small = zero_tol * largest_load < least_sum && least_sum < SMALL_ADHESION * largest_load;
+    let is_small = zero_tol * largest_load < least_sum && least_sum < WIDE_LOAD_RATIO * largest_load;
     let force_size = if is_small { light.min(least_sum) } else { light };
     (force_size < WIDE_LOAD_RATIO * largest_load && force_size > 0.0).then_some(force_size)
 }

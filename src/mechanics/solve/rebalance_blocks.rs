@@ -13,6 +13,7 @@
 //! Residuals are small differences of large forces, so they are summed with twice the digits of f64. Reference: Higham,
 //! Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative refinement).
 
+use super::settings::ROUNDING_TOL;
 use super::solver::all_finite;
 use super::{Amounts, Conditioning, Effort, Status, solve_with_retry};
 use crate::geometry::{CompensatedSum, Vector, quarter_turn};
@@ -26,9 +27,6 @@ const MAX_ROUNDS: usize = 4;
 /// If it were ten times smaller, some residual would remain; if it were ten times larger, the linear system would lose
 /// digits.
 const IMBALANCE_WEIGHT: f64 = 1e8;
-
-/// A residual up to this, relative to the forces on a block, counts as rounding.
-const ROUNDING_TOL: f64 = 1e-14;
 
 /// A round must gain this number of decimal digits in total, or it is rejected. It corresponds to halving one block's
 /// residual.

@@ -10,6 +10,7 @@
 
 use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE, solve_with_retry};
 use crate::mechanics::program::{Column, Force, Program, columns, least_change};
+use crate::mechanics::proof::NON_BINDING_RATIO;
 
 /// The speed at which every contact is made to open, relative to the largest velocity (about 1).
 ///
@@ -38,10 +39,6 @@ const ROUNDING_TOL: f64 = 16.0 * f64::EPSILON;
 
 /// The largest number of rounds.
 const MAX_ROUNDS: usize = 5;
-
-/// A grip component whose limit exceeds this multiple of the largest load is treated as having no limit, so the motion
-/// must not move it.
-const NON_BINDING_RATIO: f64 = 1e4;
 
 /// Returns a motion near a given motion that no contact resists, and in which robots with very large limits do not
 /// move. `None` if no such motion is found.

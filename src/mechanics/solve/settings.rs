@@ -10,6 +10,10 @@ use crate::clock::Instant;
 /// It is the largest tolerance with which every frame measured in [`doc::accuracy`](crate::doc::accuracy) is decided.
 pub const TOLERANCE: f64 = 1e-9;
 
+/// A residual up to this fraction of the forces of which it is the difference counts as rounding: some fifty times the
+/// rounding of one force, because a block has many.
+pub(super) const ROUNDING_TOL: f64 = 1e-14;
+
 /// The largest number of iterations for one program.
 pub const MAX_ITERATIONS: usize = 100;
 

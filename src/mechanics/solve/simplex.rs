@@ -29,10 +29,10 @@ pub(super) enum Move {
     Endless,
 }
 
-/// A basic column whose amount changes by less than this, per unit of the entering column, cannot leave the basis. The
-/// coefficients are near 1 and their rounding is about 1e-13. With 1e-11, the new basis could be close to singular;
-/// with 1e-7, small forces of long chains would be missed.
-const MIN_PIVOT: f64 = 1e-9;
+/// A basic column whose amount changes by less than this, per unit of the entering column, cannot leave the basis. A
+/// smaller change of the force of a polygon is rounding, too. The coefficients are near 1 and their rounding is about
+/// 1e-13. With 1e-11, the new basis could be close to singular; with 1e-7, small forces of long chains would be missed.
+pub(super) const MIN_PIVOT: f64 = 1e-9;
 
 /// An amount may be beyond its bound by this. The largest load is 1. The proof accepts errors of 1e-7 of the forces on
 /// each block. With 1e-9, the forces on light blocks would have no proof; with 1e-12, rounding would count as a

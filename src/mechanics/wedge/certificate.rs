@@ -5,6 +5,7 @@
 //! Reference: Boyd and Vandenberghe, Convex Optimization, 2004, §5.8 (theorems of alternatives).
 
 use crate::mechanics::program::{Program, QuadraticProgram};
+use crate::mechanics::proof::Proof;
 use crate::mechanics::solve::{Conditioning, Status, TOLERANCE, solve};
 
 /// Displacements and forces up to this multiple of the sum of all loads are ruled out.
@@ -22,7 +23,7 @@ const MAX_CORRECTIONS: usize = 6;
 ///
 /// It is twice the residual that forces at rest may leave, 1e-7 of a block's load. With less, a structure that springs
 /// hold within that tolerance could be ruled out.
-const BALANCE_BAND: f64 = 2e-7;
+const BALANCE_BAND: f64 = 2.0 * Proof::IMBALANCE_TOL;
 
 /// Multipliers whose absolute value is below this count as 0; the largest is at most 1. They come from a solver with a
 /// tolerance of 1e-9.

@@ -14,10 +14,6 @@ use crate::mechanics::solve::{Conditioning, Status, TOLERANCE, solve};
 /// The largest number of fixed-point iterations. Each halves the stiffness of the springs to the ground.
 const MAX_ITERATIONS: usize = 60;
 
-/// The smallest stiffness of the springs to the ground, relative to that of an application point: the solver's
-/// tolerance.
-const MIN_GROUND: f64 = 1e-9;
-
 /// Below this stiffness of the ground, Newton's method is tried too, because the pattern is then close to the pattern
 /// of the state of rest.
 const NEWTON_GROUND: f64 = 1e-4;
@@ -54,7 +50,7 @@ impl Springs<'_> {
             {
                 return Some(rest);
             }
-            ground = (0.5 * ground).max(MIN_GROUND);
+            ground = (0.5 * ground).max(TOLERANCE);
         }
         None
     }

@@ -4,20 +4,16 @@
 //! The forces are computed with iterative refinement (Higham, Accuracy and Stability of Numerical Algorithms, 2002,
 //! chapter 12).
 
-use super::spring::{Pattern, Rest, Slide, Springs};
+use super::spring::{Pattern, ROUNDING_TOL, Rest, Slide, Springs};
 use crate::mechanics::program::Column;
+use crate::mechanics::proof::Proof;
 use crate::mechanics::solve::is_late;
-
-/// The largest residual of a block as a fraction of its own load: the tolerance of a verdict (τ in `doc::numerics`).
-const BALANCE_TOL: f64 = 1e-7;
-
-/// The residual that is always allowed, as a fraction of the sum of forces on a block: the rounding of that sum.
-const ROUNDING_TOL: f64 = 1e-13;
 
 /// The largest violation of the springs' law, as a fraction of the lighter block's load.
 ///
-/// It is a tenth of [`BALANCE_TOL`], so that such violations are small compared with the allowed residual. In addition,
-/// a violation of 1e-11 of the contact's own forces is allowed.
+/// It is a tenth of [`Proof::IMBALANCE_TOL`], the largest residual of a block as a fraction of its own load, so that such
+/// violations are small compared with the allowed residual. In addition, a violation of 1e-11 of the contact's own
+/// forces is allowed.
 const LAW_TOL: f64 = 1e-8;
 
 /// The largest number of steps of iterative refinement. Each step adds about as many correct digits as the LU factors
@@ -136,7 +132,7 @@ impl Springs<'_> {
     /// the rounding error of the forces on it.
     fn balances(&self, rest: &Rest, residual: &[f64]) -> bool {
         self.force_sizes(rest).iter().zip(residual.chunks(3)).all(|((own, forces), residual)| {
-            let allowed = BALANCE_TOL * own + ROUNDING_TOL * forces;
+            let allowed = Proof::IMBALANCE_TOL * own + ROUNDING_TOL * forces;
             residual.iter().all(|v| v.abs() <= allowed)
         })
     }

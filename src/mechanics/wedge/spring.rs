@@ -11,8 +11,8 @@
 use super::band::{Band, order};
 use crate::mechanics::program::{Column, Force, Program, adhesion_columns, columns};
 
-/// Openings and slips below this fraction of the terms of which they are the sum count as rounding.
-const ROUNDING_TOL: f64 = 1e-13;
+/// A sum up to this fraction of its terms counts as rounding: an opening, a slip, or the residual of a block.
+pub(super) const ROUNDING_TOL: f64 = 1e-13;
 
 /// Whether and in which direction the face of a contact slides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -17,8 +17,9 @@
 //! Ranges of tilt wider than 90° are refused. A range cannot be given for a quantity in which the loads or the contacts
 //! are not linear, such as the position of a corner.
 
+use super::cone::SAME_DIRECTION;
 use super::refine;
-use super::region::{SAME_DIRECTION, bounded_polygon, clipped, corners, opposite, set_edges, sides, square};
+use super::region::{bounded_polygon, clipped, corners, opposite, set_edges, sides, square};
 use super::{CapacityEdge, CapacityError, CapacityShape, CapacityVertex, Cases, LoadCapacity};
 use crate::geometry::{Vector, cross, quarter_turn, sin_cos_degrees};
 use crate::mechanics::statics::assembly::Assembly;

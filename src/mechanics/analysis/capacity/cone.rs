@@ -18,11 +18,11 @@ pub(super) struct SampledSet {
     pub rays: Vec<Vector>,
 }
 
+/// Two directions within this angle, in radians, count as equal.
+pub(super) const SAME_DIRECTION: f64 = 1e-7;
+
 /// The largest angle between neighbouring directions before the refinement, radians.
 const MAX_STEP: f64 = 1.1;
-
-/// Two angles that differ by less than this, in radians, count as equal.
-const SAME_ANGLE: f64 = 1e-7;
 
 /// Additional directions near the two ends of an interval of directions, as fractions of the interval. The last
 /// vertices before an unbounded edge may be many times farther away than the other vertices. Only directions near the
@@ -85,8 +85,8 @@ pub(super) fn from_polygon(probe: &Probe) -> Option<SampledSet> {
     };
     let to = ray(proved.first()?, &first_far)?;
     let from = ray(proved.last()?, &last_far)?;
-    let width = (to - from + SAME_ANGLE).rem_euclid(TAU) - SAME_ANGLE;
-    let rays = (width < PI - SAME_ANGLE).then(|| Cone::Between(from, from + width).rays())?;
+    let width = (to - from + SAME_DIRECTION).rem_euclid(TAU) - SAME_DIRECTION;
+    let rays = (width < PI - SAME_DIRECTION).then(|| Cone::Between(from, from + width).rays())?;
     let samples = refine(probe, proved.into_iter().flatten().collect(), false, None);
     Some(SampledSet { samples, rays })
 }
@@ -112,7 +112,7 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
         let shares = NEAR_OUTER.into_iter().chain(inner);
         let shares = shares.chain(NEAR_OUTER.into_iter().rev().map(|share| 1.0 - share));
         let angles = shares.map(|share| from + (to - from) * share);
-        let mut inside: Vec<Sample> = if to - from > SAME_ANGLE {
+        let mut inside: Vec<Sample> = if to - from > SAME_DIRECTION {
             angles.filter_map(|a| sample(probe, unit(a), None)).collect()
         } else {
             Vec::new()
@@ -123,7 +123,7 @@ fn unbounded(probe: &Probe) -> Option<SampledSet> {
         // edges.
         let reach = Some(MAX_FORCE_PER_SIZE * largest);
         let first = sample(probe, unit(from), reach)?;
-        if to - from > SAME_ANGLE {
+        if to - from > SAME_DIRECTION {
             inside.insert(0, first);
             inside.push(sample(probe, unit(to), reach)?);
             samples.extend(refine(probe, inside, false, reach));
@@ -178,13 +178,13 @@ impl Cone {
         // If all directions lie at two opposite angles, the cone is a line.
         let is_between = |a: &f64| {
             let from = (a - first).rem_euclid(TAU);
-            from > SAME_ANGLE && from < width - SAME_ANGLE
+            from > SAME_DIRECTION && from < width - SAME_DIRECTION
         };
-        if width > PI + SAME_ANGLE {
+        if width > PI + SAME_DIRECTION {
             Some(Cone::Everything)
-        } else if width > PI - SAME_ANGLE && !angles.iter().any(is_between) {
+        } else if width > PI - SAME_DIRECTION && !angles.iter().any(is_between) {
             Some(Cone::Line(first))
-        } else if width > PI - SAME_ANGLE {
+        } else if width > PI - SAME_DIRECTION {
             Some(Cone::Between(first, first + PI))
         } else {
             Some(Cone::Between(first, last))
@@ -204,8 +204,8 @@ impl Cone {
         match self {
             Cone::Everything => Vec::new(),
             Cone::Line(a) => vec![unit(a), unit(a + PI)],
-            Cone::Between(from, to) if to - from <= SAME_ANGLE => vec![unit(0.5 * (from + to))],
-            Cone::Between(from, to) if to - from >= PI - SAME_ANGLE => {
+            Cone::Between(from, to) if to - from <= SAME_DIRECTION => vec![unit(0.5 * (from + to))],
+            Cone::Between(from, to) if to - from >= PI - SAME_DIRECTION => {
                 vec![unit(from), unit(from + FRAC_PI_2), unit(from + PI)]
             }
             Cone::Between(from, to) => vec![unit(from), unit(to)],

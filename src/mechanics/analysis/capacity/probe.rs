@@ -4,7 +4,9 @@
 use std::cell::Cell;
 
 use crate::geometry::{Point, Vector};
-use crate::mechanics::analysis::decide::{decided_forces, proved_exact_motion, proved_forces, proved_motion};
+use crate::mechanics::analysis::decide::{
+    SPEED_NOISE, decided_forces, proved_exact_motion, proved_forces, proved_motion,
+};
 use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::{Forces, Motion, Proof, check_forces, net_power};
 use crate::mechanics::scene::{Limits, RobotId};
@@ -18,16 +20,10 @@ const SHARE_BEYOND_LIMIT: f64 = 4e-3;
 /// How far inside the limit forces are tried, relative to the size of the force, if the farthest force has no proof.
 const SHARES_INSIDE_LIMIT: [f64; 4] = [0.0, 1e-9, 1e-8, MAX_SHARE_INSIDE];
 
-/// The last entry of `SHARES_INSIDE_LIMIT`, which is half of the relative tolerance of the refinement.
+/// The last entry of `SHARES_INSIDE_LIMIT`, which is half of the relative tolerance of the refinement. The farthest force
+/// and the half-plane of its motion also agree if the force lies within this distance of the boundary; otherwise the
+/// program is solved again with full conditioning.
 const MAX_SHARE_INSIDE: f64 = 1e-7;
-
-/// The farthest force and the half-plane of its motion agree if the force lies within this distance of the boundary,
-/// relative to the size of the force. Otherwise the program is solved again with full conditioning.
-const AGREES: f64 = 1e-7;
-
-/// A motion in which the point of the force is slower than this does not limit the force. The fastest point of a motion
-/// has speed 1.
-const MIN_SPEED: f64 = 1e-9;
 
 /// A search for the farthest forces gives up after this many programs and decisions without a proof. Sets that are found
 /// need up to a few tens; a wall of 410 bricks went on for 154 s.
@@ -197,7 +193,7 @@ impl Probe {
             return false;
         };
         let size = carried.force.norm().max(self.heaviest());
-        half_plane.beyond(carried.force) <= AGREES * size
+        half_plane.beyond(carried.force) <= MAX_SHARE_INSIDE * size
     }
 
     /// Combines the results of two programs for the same direction: the farther force, and the half-plane whose
@@ -297,7 +293,7 @@ impl Probe {
         let own = &motion[self.body];
         let velocity = own.about(self.given.bodies[self.body].centroid, self.at);
         let speed = velocity.norm();
-        (speed > MIN_SPEED).then(|| HalfPlane {
+        (speed > SPEED_NOISE).then(|| HalfPlane {
             normal: velocity / speed,
             limit: -net_power(&self.given, &motion) / speed,
             motion,

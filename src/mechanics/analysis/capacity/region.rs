@@ -1,5 +1,6 @@
 //! Computes with convex sets of forces in the plane: convex hull, edges, distances and intersection with half-planes.
 
+use super::cone::SAME_DIRECTION;
 use super::probe::{HalfPlane, Probe};
 use super::refine::{self, Sample};
 use super::request::Cases;
@@ -283,9 +284,6 @@ pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bo
     let ring = bounded_polygon(corners, rays, RAY_LENGTH_PER_SIZE * extent.max(f64::MIN_POSITIVE));
     distance(&ring, force) <= 1e-9 * extent
 }
-
-/// Two directions within this angle, in radians, count as equal.
-pub(super) const SAME_DIRECTION: f64 = 1e-7;
 
 /// Returns the largest factor by which a unit direction can be multiplied so that it stays in the convex hull of the
 /// corners, extended along the rays. Infinite if there is no limit. The hull must contain 0.

@@ -6,12 +6,12 @@
 //! program shows this, the component is undecided.
 
 use super::rebalance::Rebalanced;
-use super::strategy::{Attempt, Strategy};
+use super::strategy::Strategy;
 use super::{Component, Outcome};
 use crate::mechanics::analysis::{UndecidedReason, Verdict};
 use crate::mechanics::program::Program;
 use crate::mechanics::proof::{Motion, Proof};
-use crate::mechanics::solve::{Amounts, is_late};
+use crate::mechanics::solve::{Amounts, Balance, is_late};
 
 /// The results of the strategies that were tried so far.
 struct Progress {
@@ -19,7 +19,7 @@ struct Progress {
     outcome: Outcome,
     /// A weak motion with its proof: an accepted imbalance of forces could absorb its power.
     weak_motion: Option<(Vec<Motion>, Proof)>,
-    last: Option<Attempt>,
+    last: Option<Balance>,
 }
 
 impl Component<'_> {
@@ -38,9 +38,9 @@ impl Component<'_> {
             let attempt = strategy.attempt(program);
             let outcome = &mut progress.outcome;
             outcome.method = strategy.method();
-            outcome.effort = outcome.effort.plus(attempt.balance.effort);
+            outcome.effort = outcome.effort.plus(attempt.effort);
             outcome.least_force_failed |=
-                strategy.is_full_least_force() && attempt.balance.forces.is_none() && attempt.balance.motion.is_none();
+                strategy.is_full_least_force() && attempt.forces.is_none() && attempt.motion.is_none();
             if self.decide_by_forces(program, &attempt, &mut progress.outcome) {
                 return progress.outcome;
             }
@@ -58,15 +58,15 @@ impl Component<'_> {
 
     /// Decides by the forces of an attempt. The component stands if they balance every body; it falls if some bodies
     /// are proved to fall. Returns false if neither is proved.
-    fn decide_by_forces(&self, program: &Program, attempt: &Attempt, outcome: &mut Outcome) -> bool {
-        let Some(amounts) = &attempt.balance.forces else {
+    fn decide_by_forces(&self, program: &Program, attempt: &Balance, outcome: &mut Outcome) -> bool {
+        let Some(amounts) = &attempt.forces else {
             return false;
         };
         // The solver's accuracy is relative to the heaviest load, so its forces may not balance a light body.
         match self.balance_every_body(program, amounts, &mut outcome.effort) {
             Some(Rebalanced::Forces(proved)) => {
                 // Check how close the sum of the forces is to the least sum.
-                let witness = attempt.balance.witness.as_deref();
+                let witness = attempt.witness.as_deref();
                 (outcome.force_bound, outcome.least_force) = self.bound_force_sum(witness, &proved.forces);
                 outcome.stand(proved);
                 true
@@ -91,11 +91,11 @@ impl Component<'_> {
         &self,
         program: &Program,
         strategy: Strategy,
-        attempt: &Attempt,
+        attempt: &Balance,
         progress: &mut Progress,
     ) -> bool {
         let outcome = &mut progress.outcome;
-        let motion = attempt.balance.motion.as_ref();
+        let motion = attempt.motion.as_ref();
         let proved = motion.and_then(|y| self.prove_motion(program, y, &mut outcome.effort));
         // A motion decides alone if its power is larger than the power of any imbalance that a proof by forces accepts.
         let is_strong = proved.as_ref().is_some_and(|(motion, proof)| self.exceeds_force_tolerance(motion, proof));
@@ -117,10 +117,14 @@ impl Component<'_> {
     /// because no program has excluded a balance.
     fn without_proof(&self, program: &Program, progress: Progress) -> Outcome {
         let attempt = progress.last.as_ref();
-        let amounts = attempt.and_then(|attempt| attempt.unproved_forces().cloned());
+        // If no forces balance, these are the forces that balance together with adhesion.
+        let amounts = attempt.and_then(|attempt| {
+            let with_adhesion = attempt.least_adhesion.as_ref().map(|found| &found.forces);
+            attempt.forces.as_ref().or(with_adhesion).cloned()
+        });
         let proved = self.prove_forces(amounts.unwrap_or_else(|| Amounts::zero(program)));
         let weak = progress.weak_motion.map(|(_, proof)| proof);
-        let motion = attempt.and_then(|attempt| attempt.balance.motion.as_ref());
+        let motion = attempt.and_then(|attempt| attempt.motion.as_ref());
         // The reason for the undecided verdict reports the errors of the forces and of the motion.
         let unproved_motion = weak.or_else(|| motion.map(|y| self.check_mechanism(&self.to_motions(y).1)));
         let mut outcome = progress.outcome;

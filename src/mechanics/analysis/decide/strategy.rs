@@ -5,8 +5,8 @@ use std::fmt;
 
 use crate::mechanics::program::Program;
 use crate::mechanics::solve::{
-    Amounts, Balance, Choice, Conditioning, LeastAdhesion, SolverSettings, any_balance, balance_at_first_look,
-    balance_in, collapse, least_adhesion_in, least_residual,
+    Balance, Choice, Conditioning, SolverSettings, any_balance, balance_at_first_look, balance_in, collapse,
+    least_adhesion_in, least_residual,
 };
 
 /// How a component was decided. The variants are ordered: the result of a frame names the last method among those of
@@ -70,35 +70,6 @@ pub(super) enum Strategy {
     Residual,
     /// The program of least adhesion.
     Adhesion(SolverSettings),
-}
-
-/// The results of a strategy, in the program's units and not yet proved.
-pub(super) struct Attempt {
-    /// Forces that balance the loads according to the program, or a motion that is a mechanism according to it.
-    pub balance: Balance,
-    /// The result of the program of least adhesion, if the strategy solved it.
-    pub least_adhesion: Option<LeastAdhesion>,
-}
-
-impl From<LeastAdhesion> for Attempt {
-    fn from(found: LeastAdhesion) -> Attempt {
-        let balance = Balance {
-            forces: (found.balanced == Some(true)).then(|| found.forces.clone()),
-            motion: found.motion.clone(),
-            witness: None,
-            effort: found.effort,
-        };
-        Attempt { balance, least_adhesion: Some(found) }
-    }
-}
-
-impl Attempt {
-    /// Returns the unproved forces of this attempt. These may be forces that balance only together with adhesion.
-    /// `None` if the attempt found no forces.
-    pub fn unproved_forces(&self) -> Option<&Amounts> {
-        let least_adhesion = self.least_adhesion.as_ref().map(|least_adhesion| &least_adhesion.forces);
-        self.balance.forces.as_ref().or(least_adhesion)
-    }
 }
 
 impl Strategy {
@@ -172,23 +143,19 @@ impl Strategy {
         strategies
     }
 
-    /// Solves the program of this strategy, or evaluates its closed form.
-    pub fn attempt(&self, program: &Program) -> Attempt {
-        let balance = match self {
-            Strategy::Determinate => match collapse(program) {
-                Some((motion, least_adhesion)) => {
-                    let balance = Balance { motion: Some(motion), ..Balance::default() };
-                    return Attempt { balance, least_adhesion: Some(least_adhesion) };
-                }
-                None => Balance::default(),
-            },
+    /// Solves the program of this strategy, or evaluates its closed form. The result is in the program's units and not
+    /// yet proved.
+    pub fn attempt(&self, program: &Program) -> Balance {
+        match self {
+            Strategy::Determinate => collapse(program).map_or_else(Balance::default, |(motion, least_adhesion)| {
+                Balance { motion: Some(motion), least_adhesion: Some(least_adhesion), ..Balance::default() }
+            }),
             Strategy::FirstLook(settings) => balance_at_first_look(program, *settings),
             Strategy::Force(settings) => balance_in(program, *settings),
             Strategy::AnyBalance => any_balance(program),
             Strategy::Residual => least_residual(program),
-            Strategy::Adhesion(settings) => return least_adhesion_in(program, *settings).into(),
-        };
-        Attempt { balance, least_adhesion: None }
+            Strategy::Adhesion(settings) => least_adhesion_in(program, *settings).into(),
+        }
     }
 
     /// True if the strategy solves the program of least force to the end.
@@ -199,10 +166,10 @@ impl Strategy {
     /// True if an attempt whose forces could not be proved shows that no forces balance the loads. Only the programs of
     /// any balance, least residual and least adhesion can show this. They always have an optimum, and this optimum
     /// balances the loads if any forces do.
-    pub fn excludes_balance(&self, attempt: &Attempt) -> bool {
+    pub fn excludes_balance(&self, attempt: &Balance) -> bool {
         match self {
             Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
-            Strategy::AnyBalance | Strategy::Residual => attempt.balance.forces.is_some(),
+            Strategy::AnyBalance | Strategy::Residual => attempt.forces.is_some(),
             // If the solver ended without a result, the attempt shows nothing.
             Strategy::Adhesion(_) => {
                 let found = attempt.least_adhesion.as_ref();

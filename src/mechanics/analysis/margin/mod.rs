@@ -38,6 +38,7 @@ pub use interval::{End, Interval, Intervals, RobotIntervals};
 pub use kind::{MarginKind, MarginKinds};
 pub use margins::{Margin, Margins, RobotMargins, Sides};
 pub(super) use parameter::largest_load_factor;
+pub(super) use search::END_TOL;
 use trial::Trial;
 pub use trial::trials;
 

@@ -4,7 +4,8 @@
 //! excluded range around 0, until the frame stands at one end of the range or the range is a full turn.
 
 use super::interval::{Exclusion, Interval, fewest_arcs};
-use super::tilt::{MAX_CUTS, MAX_OFFSET, MIN_ARC, around, excluded_arc, offsets, tilt_scale, tilted};
+use super::search::CONFIRMATION_TOL;
+use super::tilt::{MAX_CUTS, MIN_ARC, around, excluded_arc, offsets, tilt_scale, tilted};
 use super::trial::Trial;
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::decide::LimitDistance;
@@ -147,7 +148,7 @@ impl Excluded {
 /// Returns the largest gap, in degrees, between two arcs near `tilt` that still count as joined. Verdicts
 /// cannot resolve smaller gaps.
 fn max_joined_gap(tilt: f64) -> f64 {
-    MAX_OFFSET * tilt_scale(tilt)
+    CONFIRMATION_TOL * tilt_scale(tilt)
 }
 
 /// The verdict of a whole frame at a tilt.

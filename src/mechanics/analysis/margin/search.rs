@@ -77,8 +77,9 @@ pub(super) enum ExcludedRange {
     All,
 }
 
-/// An end is found if a stable and an unstable value are at most this far apart, relative to the end.
-pub(super) const END_TOL: f64 = 1e-6;
+/// An end is found if a stable and an unstable value are at most this far apart, relative to the end. Ends of two
+/// components that differ by less are equal.
+pub(in crate::mechanics::analysis) const END_TOL: f64 = 1e-6;
 /// The end from a linear program is accepted if verdicts within this relative distance, on both sides, agree with it.
 pub(super) const CONFIRMATION_TOL: f64 = 256e-6;
 /// A verdict may be stable this far beyond the end, relative to the value, within the tolerance of the proofs.

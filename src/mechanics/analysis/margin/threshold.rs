@@ -13,7 +13,7 @@ use crate::mechanics::analysis::Verdict;
 use crate::mechanics::solve::Tangent;
 
 /// The largest number of times that an end is moved inward by [`sharpened`]. Each time costs a program.
-const MAX_SHARPENINGS: usize = 8;
+pub(super) const MAX_SHARPENINGS: usize = 8;
 
 /// Returns the interval of values, from 0 to `max_value`, at which a component stands. `outward` is −1 if it stands
 /// above a least sufficient value, such as the least friction, and 1 if it stands below a largest admissible value.

@@ -8,25 +8,18 @@
 
 use super::interval::{End, Interval};
 use super::linear::linear;
-use super::search::{Path, Predictor};
+use super::search::{CONFIRMATION_TOL, END_TOL, OFFSET_GROWTH, Path, Predictor};
+use super::threshold::MAX_SHARPENINGS;
 use super::trial::{Setting, Trial};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::decide::LimitDistance;
 use crate::mechanics::proof::Motion;
 
-/// The smallest distance from an end at which verdicts are computed, relative to the tilt.
-const MIN_OFFSET: f64 = 1e-6;
-/// Distances from an end grow by this factor while verdicts stay undecided.
-const OFFSET_GROWTH: f64 = 16.0;
-/// The largest of these distances, relative to the tilt.
-pub(super) const MAX_OFFSET: f64 = 256e-6;
 /// A range between two stable tilts is not searched further if it is narrower than this, degrees.
 pub(super) const MIN_ARC: f64 = 1e-6;
 /// The step of the first search, degrees. A right angle is no multiple of it, because many structures are exactly at
 /// their limit of stability at right angles.
 const SEARCH_STEP: f64 = 77.7;
-/// The largest number of mechanisms that move an end inward by less than the tolerance of the proofs.
-const MAX_SHARPENINGS: usize = 8;
 /// The largest number of steps of one search. Each step excludes an arc of tilts by a mechanism.
 pub(super) const MAX_CUTS: usize = 200;
 
@@ -201,7 +194,7 @@ impl TiltSearch<'_, '_> {
             if closer >= bound {
                 break;
             }
-            let step = MIN_OFFSET * tilt_scale(tilt);
+            let step = END_TOL * tilt_scale(tilt);
             (bound, motion, inside) = (closer, found, (closer - step).max(0.0));
         }
         StableEnd::At(bound, motion)
@@ -279,8 +272,8 @@ pub(super) fn excluded_arc(trial: &Trial, tilt: f64, motion: &[Motion]) -> Optio
 
 /// Returns growing distances from the end of an interval of tilts, as fractions of [`tilt_scale`].
 pub(super) fn offsets() -> impl Iterator<Item = f64> {
-    std::iter::successors(Some(0.5 * MIN_OFFSET), |step| Some(step * OFFSET_GROWTH))
-        .take_while(|step| *step <= MAX_OFFSET)
+    std::iter::successors(Some(0.5 * END_TOL), |step| Some(step * OFFSET_GROWTH))
+        .take_while(|step| *step <= CONFIRMATION_TOL)
 }
 
 /// Returns the angle, in degrees, to which distances from a tilt are relative: the magnitude of the tilt, but at least

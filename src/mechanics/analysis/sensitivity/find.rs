@@ -7,7 +7,7 @@ use super::corners::Corners;
 use super::rates::Rates;
 use super::state::{EndState, Freedom};
 use super::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity};
-use crate::mechanics::analysis::margin::{End, Interval, Intervals, MarginKind};
+use crate::mechanics::analysis::margin::{END_TOL, End, Interval, Intervals, MarginKind};
 use crate::mechanics::scene::BodyId;
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect::FrameContext;
@@ -21,10 +21,6 @@ pub(in crate::mechanics::analysis) struct Part<'a> {
 /// A function that returns the slope for one quantity. Its first argument is the largest derivative of the same kind.
 /// Its second argument reads the derivative from the rates of a state.
 type SlopeOf<'a> = dyn Fn(f64, &dyn Fn(&Rates) -> f64) -> Slope + 'a;
-
-/// Two ends that differ by less than this, relative to their values, count as equal. Every component with an equal end
-/// falls there.
-const END_TOL: f64 = 1e-6;
 
 /// Computes how both ends of the interval of a margin change with corners, weights, friction and loads.
 pub(in crate::mechanics::analysis) fn find(
