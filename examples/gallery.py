@@ -13,7 +13,7 @@ from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent.parent / "assets" / "gallery"
 # The options of `drystone render`. The figures show the flow of forces.
-LOOK = ["--kind", "flow", "--no-key", "--width-mm", "100", "--dpi", "120"]
+LOOK = ["--kind", "flow", "--no-key", "--width-mm", "100", "--dpi", "120", "--no-source"]
 
 
 def box(left, bottom, right, top):

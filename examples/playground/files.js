@@ -13,17 +13,18 @@ const DRAWINGS = { svg: "svg", dxf: "dxf", geojson: "geojson", wkt: "wkt" };
  */
 export async function readFile(file, solver) {
   if (file.size > MOST) throw new Error("The file is larger than 20 MB.");
-  const text = await file.text();
   const ending = file.name.split(".").at(-1)?.toLowerCase() ?? "";
   const format = DRAWINGS[ending];
-  if (!format) {
-    if (ending !== "json") throw new Error("Only scenes (.json) and drawings (.svg, .dxf, .geojson, .wkt) can be opened.");
-    return { text, notes: [] };
-  }
-  const answer = await solver.importDrawing(text, format);
+  if (ending === "json") return { text: await file.text(), notes: [] };
+  const isPicture = ending === "png" || ending === "pdf";
+  if (!format && !isPicture) throw new Error("Only scenes (.json), drawings (.svg, .dxf, .geojson, .wkt) and figures (.png, .pdf) can be opened.");
+  const answer = isPicture
+    ? await solver.sceneIn(new Uint8Array(await file.arrayBuffer()))
+    : await solver.importDrawing(await file.text(), format);
   if (!answer) throw new Error("Another file was opened.");
   if (answer.problems) throw new Error(answer.problems.map((problem) => problem.message).join(" "));
   if (answer.error) throw new Error(answer.error);
+  if (isPicture) return { text: answer.value, notes: [] };
   const { scene, notes } = answer.value;
   const words = (Array.isArray(notes) ? notes : []).map((note) => (typeof note === "string" ? note : String(note?.message ?? "")));
   return { text: typeof scene === "string" ? scene : JSON.stringify(scene), notes: words };

@@ -112,6 +112,11 @@ export class Solver {
     return this.ask("slow", "figure", { task: "figure", scene, options: { ...options, time_limit: PATIENCE } });
   }
 
+  /** Requests the scene that a PNG or a PDF carries. @param {Uint8Array} bytes */
+  sceneIn(bytes) {
+    return this.ask("slow", "import", { task: "picture", bytes });
+  }
+
   /** @param {string} text @param {string} format */
   importDrawing(text, format) {
     return this.ask("slow", "import", { task: "import", text, format });

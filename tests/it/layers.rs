@@ -109,7 +109,15 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
     ("krilla", &["pictures/output/pdf.rs", "pictures/output/pdf/"]),
     ("subsetter", &["pictures/output/svg/font.rs"]),
     ("write_fonts", &["pictures/output/svg/font.rs"]),
-    ("base64", &["pictures/output/svg/font.rs", "products/snapshot/review.rs", "entry/cli/snapshot/answer.rs"]),
+    (
+        "base64",
+        &[
+            "pictures/output/attachment.rs",
+            "pictures/output/svg/font.rs",
+            "products/snapshot/review.rs",
+            "entry/cli/snapshot/answer.rs",
+        ],
+    ),
     (
         "png",
         &[

@@ -3,6 +3,7 @@
 mod accuracy;
 mod batch;
 mod broken;
+mod carried;
 mod check;
 mod contacts;
 mod fault;

@@ -325,6 +325,8 @@ const WRITERS: &[(&str, &[&str])] = &[
         "\"<",
         &[
             "pictures/output/svg.rs",
+            // Base64 between two tags.
+            "pictures/output/attachment.rs",
             // Inserts the name space into a finished chart.
             "products/report/entry/part.rs",
             // Refuses a script that would close its own element; it writes nothing.

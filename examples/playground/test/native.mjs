@@ -95,7 +95,7 @@ test("figures have the same bytes", () => {
     const [options, words] = number % 3 === 0
       ? [{}, []]
       : [{ kind, theme, amounts: true, width_mm: 174 }, ["--kind", kind, "--theme", theme, "--amounts", "--width-mm", "174"]];
-    const { stdout, stderr } = printed("render", name, "-o", "-", "--format", "svg", "--text", "names", ...words);
+    const { stdout, stderr } = printed("render", name, "-o", "-", "--format", "svg", "--text", "names", "--no-source", ...words);
     assert.ok(stdout.startsWith("<svg"), `${name} ${words.join(" ")}: ${stderr}`);
     same(module.figure(read(name), JSON.stringify(options)), stdout, `${name} ${words.join(" ")}`);
   }
@@ -126,7 +126,7 @@ test("the forces that a block can carry and sensitivities have the same bytes", 
     assert.ok(options.capacity ? found.capacity.vertices.length > 0 : found.sensitivity, words.join(" "));
   }
   const words = ["--kind", "capacity", "--capacity", `${id}@${at}`];
-  const { stdout } = printed("render", name, "-o", "-", "--format", "svg", "--text", "names", ...words);
+  const { stdout } = printed("render", name, "-o", "-", "--format", "svg", "--text", "names", "--no-source", ...words);
   same(module.figure(scene, JSON.stringify({ kind: "capacity", capacity: `${id}@${at}` })), stdout, words.join(" "));
 });
 

@@ -1,11 +1,11 @@
 //! [`DrawArgs`]: draws a figure or an animation of an analysis. `drystone render` and the Python package share it.
 
 use crate::entry::cli::error::CliError;
-use crate::entry::cli::picture::{Format, Picture, or_split};
+use crate::entry::cli::picture::{Drawn, Format, Picture, or_split};
 use crate::entry::cli::style_args::StyleArgs;
-use crate::entry::request::{FigureArgs, between};
+use crate::entry::request::{Background, FigureArgs, between};
 use crate::mechanics::analysis::Analysis;
-use crate::pictures::drawing::Drawing;
+use crate::pictures::drawing::Theme;
 use crate::pictures::output::animation;
 use crate::pictures::output::fonts::Fonts;
 use crate::products::figure;
@@ -42,12 +42,15 @@ impl DrawArgs {
                     .into(),
             );
         }
+        if self.look.is_auto() && matches!(self.picture.background, Some(Background::Plain(_))) {
+            return Err("--theme auto has a light and a dark page; leave out --background, or choose none".into());
+        }
         Ok(())
     }
 
     /// Returns the options of the figure, without the block of `--zoom`, which depends on the scene.
     pub(crate) fn options(&self) -> Result<figure::Options, CliError> {
-        Ok(self.figure.options(self.look.theme()?, self.picture.page())?)
+        Ok(self.figure.options(self.look.light_theme()?, self.picture.page())?)
     }
 
     /// Draws a figure, or an animation, of an analysis that has all results for it, and returns the bytes of the file.
@@ -74,7 +77,13 @@ impl DrawArgs {
         }
         let drawing = figure::draw(analysis, kind, options);
         let is_high = steps > 1 && drawing.height > MAX_PAGE_HEIGHTS * self.picture.page_ratio() * drawing.width;
-        Ok((self.picture.bytes(drawing, format, fonts).map_err(split)?, is_high))
+        let dark = self.dark(options).map(|options| figure::draw(analysis, kind, &options));
+        Ok((self.picture.bytes(Drawn { drawing, dark }, format, fonts).map_err(split)?, is_high))
+    }
+
+    /// Returns the options of the same figure on dark pages if one SVG has both.
+    fn dark(&self, options: &figure::Options) -> Option<figure::Options> {
+        self.look.is_auto().then(|| figure::Options { theme: Theme::dark(), ..options.clone() })
     }
 
     /// Draws the pages or the panels of a figure as separate files.
@@ -84,12 +93,16 @@ impl DrawArgs {
         kind: figure::Kind,
         options: &figure::Options,
         pages: bool,
-    ) -> Vec<Drawing> {
-        if pages {
-            figure::split(analysis, kind, options, self.picture.page_ratio())
-        } else {
-            figure::panels(analysis, kind, options)
-        }
+    ) -> Vec<Drawn> {
+        let drawn = |options: &figure::Options| {
+            if pages {
+                figure::split(analysis, kind, options, self.picture.page_ratio())
+            } else {
+                figure::panels(analysis, kind, options)
+            }
+        };
+        let mut dark = self.dark(options).map(|options| drawn(&options)).unwrap_or_default().into_iter();
+        drawn(options).into_iter().map(|drawing| Drawn { drawing, dark: dark.next() }).collect()
     }
 }
 

@@ -88,6 +88,8 @@ fn files(plate: &Plate, formats: &[Format], folder: &Path) -> Result<Files, CliE
         width_mm: None,
         words: Words::default(),
         compression: Compression::default(),
+        dark: None,
+        source: None,
         fonts: &Fonts::default(),
     };
     let file = |format: &Format| {

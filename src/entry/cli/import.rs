@@ -13,6 +13,7 @@ use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::FrameChoice;
 use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{Note, NoteCode, Scene};
+use crate::pictures::output::attachment::is_picture;
 use crate::pictures::output::file::Existing;
 use crate::products::result::import_json;
 use crate::products::wording::number::quantity;
@@ -30,11 +31,12 @@ const MAX_LISTED_BODIES: usize = 12;
 /// so that they touch. Elements that cannot be imported are reported.
 ///
 /// A contact list (.csv, .json) has the centres and masses of bodies, and the points at which they touch. From a
-/// COMPAS assembly (.json), the cross-section of its prismatic blocks is imported.
+/// COMPAS assembly (.json), the cross-section of its prismatic blocks is imported. A PNG or PDF of drystone render gives
+/// back its scene file.
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub(crate) struct Import {
-    /// The drawing: .svg, .dxf, .geojson, .json, .wkt or .csv; - reads standard input
+    /// The drawing: .svg, .dxf, .geojson, .json, .wkt, .csv or a figure as .png or .pdf; - reads standard input
     #[arg(value_name = "DRAWING")]
     drawing: PathBuf,
     /// The scene file to write; - or nothing prints the scene
@@ -98,6 +100,10 @@ pub(crate) struct Import {
     /// Write nothing and exit with 2 if any element could not be imported as drawn
     #[arg(long)]
     strict: bool,
+    /// Take the scene file that a figure of drystone carries, byte for byte, instead of the shapes of the SVG; a PNG or
+    /// PDF needs no option
+    #[arg(long)]
+    source: bool,
     /// Print the log of the import as JSON; the scene then needs a file (-o)
     #[arg(long, requires = "output")]
     json: bool,
@@ -109,9 +115,15 @@ impl Import {
         let file = self.output.as_deref().filter(|path| *path != stdout);
         self.check_options(file)?;
         let existing = if self.force { Existing::Replace } else { Existing::Keep };
-        let format = self.format()?;
         let name = source::name(&self.drawing);
-        let text = self.text(&name, format)?;
+        let (format, bytes) = (self.format(), source::bytes(&self.drawing));
+        if let Ok(bytes) = &bytes
+            && (self.source || is_picture(bytes))
+        {
+            return Ok(self.bring_back(terminal, file, bytes, existing)?);
+        }
+        let format = format?;
+        let text = text(bytes?, &name, format)?;
         // A .json file may have one of three formats. Its content decides which.
         let format = match (self.format, format) {
             (None, Format::GeoJson) => Format::of_json(&text),
@@ -128,7 +140,7 @@ impl Import {
                 terminal.notes(&page);
                 let mut problems = refusal.problems;
                 if let Some(scene) = refusal.overlapping.filter(|_| !self.strict) {
-                    self.write(terminal, file, &scene, existing)?;
+                    write(terminal, file, scene.to_json().into_bytes(), existing)?;
                     if let (Some(path), Some(last)) = (file, problems.last_mut()) {
                         let path = path.display();
                         last.help += &format!("; drystone render --broken {path} -o overlaps.svg shows what overlaps");
@@ -140,7 +152,7 @@ impl Import {
         if self.strict && !imported.remarks.is_empty() {
             return Err(refused(&name, &imported.remarks));
         }
-        self.write(terminal, file, &imported.scene, existing)?;
+        write(terminal, file, imported.scene.to_json().into_bytes(), existing)?;
         self.print_summary(terminal, &name, &imported);
         if self.json {
             let json = import_json(&imported);
@@ -149,19 +161,20 @@ impl Import {
         Ok(ExitStatus::Done)
     }
 
-    /// Writes the scene to the file or, without a file, to standard output.
-    fn write(
+    /// Writes the scene file that a picture carries.
+    fn bring_back(
         &self,
         terminal: &Terminal,
         file: Option<&Path>,
-        scene: &SceneFile,
+        picture: &[u8],
         existing: Existing,
-    ) -> Result<(), CliError> {
-        let scene = scene.to_json();
-        match file {
-            Some(path) => destination::write(&[(path.to_owned(), scene.into_bytes())], existing),
-            None => terminal.print_bytes(scene.as_bytes()),
+    ) -> Result<ExitStatus, CliError> {
+        if self.json || self.format.is_some() || self.options() != Options::default() {
+            let why = "the scene file in a picture stays as it is; give no option but -o and --force";
+            return Err(CliError::from(why));
         }
+        write(terminal, file, source::carried(&self.drawing, picture)?, existing)?;
+        Ok(ExitStatus::Done)
     }
 
     /// Returns an error if the options contradict each other, or if the scene file is a folder or the drawing itself.
@@ -208,19 +221,6 @@ impl Import {
                 self.drawing.display()
             ).into()),
         }
-    }
-
-    fn text(&self, name: &str, format: Format) -> Result<String, CliError> {
-        let bytes = source::bytes(&self.drawing)?;
-        // Old DXF files have one byte per character. Only names in them can contain non-ASCII characters. So these
-        // files are read as Latin-1, even if some letters of names are then wrong.
-        if format == Format::Dxf && std::str::from_utf8(&bytes).is_err() {
-            return Ok(bytes.into_iter().map(char::from).collect());
-        }
-        String::from_utf8(bytes).map_err(|error| {
-            let at = error.utf8_error().valid_up_to();
-            CliError::not_read(name, format!("it is not valid UTF-8 from byte {at} on; save it as UTF-8"))
-        })
     }
 
     fn options(&self) -> Options {
@@ -294,6 +294,26 @@ impl Import {
         }
         terminal.notes(&page);
     }
+}
+
+/// Writes a scene file or, without a path, prints it.
+fn write(terminal: &Terminal, file: Option<&Path>, scene: Vec<u8>, existing: Existing) -> Result<(), CliError> {
+    match file {
+        Some(path) => destination::write(&[(path.to_owned(), scene)], existing),
+        None => terminal.print_bytes(&scene),
+    }
+}
+
+fn text(bytes: Vec<u8>, name: &str, format: Format) -> Result<String, CliError> {
+    // Old DXF files have one byte per character. Only names in them can contain non-ASCII characters. So these files are
+    // read as Latin-1, even if some letters of names are then wrong.
+    if format == Format::Dxf && std::str::from_utf8(&bytes).is_err() {
+        return Ok(bytes.into_iter().map(char::from).collect());
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        CliError::not_read(name, format!("it is not valid UTF-8 from byte {at} on; save it as UTF-8"))
+    })
 }
 
 fn refused(name: &str, problems: &[Remark]) -> Vec<CliError> {

@@ -89,6 +89,7 @@ enum Command {
     Export(export::Export),
     #[command(name = "mdbook")]
     MdBook(mdbook::MdBook),
+    Markdown(mdbook::Markdown),
     Shapes(figures::Shapes),
     Snapshot(snapshot::Snapshot),
     Style(print::Style),
@@ -127,6 +128,7 @@ pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
         Command::Import(import) => import.run(&terminal),
         Command::Export(export) => export.run(&terminal),
         Command::MdBook(mdbook) => mdbook.run(&terminal),
+        Command::Markdown(markdown) => markdown.run(&terminal),
         Command::Shapes(shapes) => shapes.run(&terminal),
         Command::Snapshot(snapshot) => snapshot.run(&terminal),
         Command::Style(style) => style.run(&terminal),

@@ -2,11 +2,13 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::entry::cli::error::CliError;
 use crate::entry::request::{Background, between, millimetres};
 use crate::pictures::drawing::Drawing;
 use crate::pictures::output::animation::Step;
+use crate::pictures::output::attachment::{MAX_BYTES, attached};
 use crate::pictures::output::fonts::Fonts;
 pub(crate) use crate::pictures::output::format::Format;
 use crate::pictures::output::format::{Animate, FormatError, Settings};
@@ -43,6 +45,20 @@ request! {
             arg(long = "font", value_name = "FILE", env = "DRYSTONE_FONT", hide_env_values = true);
         /// The compression of a PNG.
         compression: Compression = Compression::default(), arg(skip);
+        /// The scene file that the picture carries.
+        source: Option<Arc<[u8]>> = None, arg(skip);
+    }
+}
+
+/// A drawing, and the same drawing in a dark theme if an SVG follows the colours that its reader prefers.
+pub(crate) struct Drawn {
+    pub(crate) drawing: Drawing,
+    pub(crate) dark: Option<Drawing>,
+}
+
+impl From<Drawing> for Drawn {
+    fn from(drawing: Drawing) -> Drawn {
+        Drawn { drawing, dark: None }
     }
 }
 
@@ -102,6 +118,11 @@ impl Picture {
         Picture { compression: Compression::Quick, ..self }
     }
 
+    /// Puts the scene file into the picture, unless it is larger than a picture can carry.
+    pub(crate) fn carrying(&self, file: &[u8]) -> Picture {
+        Picture { source: (file.len() <= MAX_BYTES).then(|| file.into()), ..self.clone() }
+    }
+
     /// Refuses options that do not apply to a format.
     pub(crate) fn check(&self, format: Format) -> Result<(), CliError> {
         let mut wrong = Vec::new();
@@ -122,13 +143,17 @@ impl Picture {
     }
 
     /// Returns a drawing as the bytes of a file in this format.
-    pub(crate) fn bytes(&self, drawing: Drawing, format: Format, fonts: &Fonts) -> Result<Vec<u8>, CliError> {
+    pub(crate) fn bytes(&self, drawing: impl Into<Drawn>, format: Format, fonts: &Fonts) -> Result<Vec<u8>, CliError> {
+        let Drawn { drawing, dark } = drawing.into();
         let drawing = Background::under(self.background, drawing);
+        let dark = dark.map(|dark| Background::under(self.background, dark));
         let settings = Settings {
             size: self.size(),
             width_mm: self.width_mm,
             words: self.text.unwrap_or(Words::Embedded),
             compression: self.compression,
+            dark: dark.as_ref(),
+            source: self.source.as_deref(),
             fonts,
         };
         format.write(&drawing, &settings).map_err(format_error)
@@ -148,7 +173,8 @@ impl Picture {
         let step =
             |(drawing, seconds)| Step { svg: svg::for_pixels(&Background::under(self.background, drawing)), seconds };
         let steps: Vec<Step> = drawings.into_iter().map(step).collect();
-        animate(&steps, self.size(), fonts).map_err(png_error)
+        let bytes = animate(&steps, self.size(), fonts).map_err(png_error)?;
+        Ok(attached(bytes, self.source.as_deref()))
     }
 
     /// Returns the layout width of a figure in pixels, computed from `--width-mm`; `None` without this option. In

@@ -65,6 +65,10 @@ pub(crate) struct Render {
     /// Exit with 1 or 3, as check does, if something is unstable or undecided
     #[arg(long)]
     strict: bool,
+    /// Leave the scene file out of the picture; without this option, an SVG, PNG or PDF of one scene carries it, and check
+    /// and import read it from there
+    #[arg(long)]
+    no_source: bool,
     /// Accepted for habit: render always replaces its own output
     #[arg(long, hide = true)]
     force: bool,
@@ -232,7 +236,11 @@ impl Render {
         progress: &Progress,
     ) -> Result<Rendered, CliError> {
         progress.doing(&source.name());
-        let figure = &self.draw.figure;
+        let mut draw = self.draw.clone();
+        if !self.no_source {
+            draw.picture = draw.picture.carrying(&source.file);
+        }
+        let figure = &draw.figure;
         let wrong = |why| CliError::CommandLine(format!("{}: {why}", source.name()));
         let options = &figure.for_scene(options, &source.scene).map_err(wrong)?;
         let scene = self.shown(source, format, fonts);
@@ -240,15 +248,15 @@ impl Render {
         progress.step();
         let mut summary = summary(&analysis);
         let falls = analysis.frames.iter().any(|frame| frame.verdict == Verdict::Unstable);
-        if self.draw.animate.is_some() && figure.kind == figure::Kind::Mechanism && !falls {
+        if draw.animate.is_some() && figure.kind == figure::Kind::Mechanism && !falls {
             summary.push_str("; nothing moves");
         }
         let bytes = if self.writes_parts() {
-            let parts = self.draw.parts(&analysis, figure.kind, options, self.pages);
-            let one = |part| self.draw.picture.bytes(part, format, fonts);
+            let parts = draw.parts(&analysis, figure.kind, options, self.pages);
+            let one = |part| draw.picture.bytes(part, format, fonts);
             parts.into_iter().map(one).collect::<Result<_, _>>()?
         } else {
-            let (bytes, is_high) = self.draw.bytes(&analysis, options, format, fonts)?;
+            let (bytes, is_high) = draw.bytes(&analysis, options, format, fonts)?;
             if is_high {
                 summary.push_str("; taller than an A4 page, --pages splits it");
             }
@@ -299,9 +307,8 @@ impl Render {
             CliError::CommandLine(format!("{} and {}: {why}", names[0], names[1]))
         })?;
         let joined = Analysis { scene: Arc::new(scene), frames, notes: Vec::new(), cases: None };
-        let drawing = figure::draw(&joined, figure::Kind::Compare, options);
         Ok(Rendered {
-            bytes: vec![self.draw.picture.bytes(drawing, format, fonts)?],
+            bytes: vec![self.draw.bytes(&joined, options, format, fonts)?.0],
             ending: ExitStatus::from_analysis(&joined),
             summary: summary(&joined),
         })

@@ -275,11 +275,11 @@ impl Report {
         if form == Form::Pdf {
             // A PDF contains text in the built-in fonts of drystone. Code points replace characters that these fonts
             // lack.
-            for (source, _) in &mut read {
+            for source in &mut read {
                 source.scene = missing_glyphs::legible(&source.scene, &Fonts::default());
             }
         }
-        let analyses: Vec<Analysis> = read.iter().map(|(source, _)| Analysis::with(&source.scene, options)).collect();
+        let analyses: Vec<Analysis> = read.iter().map(|source| Analysis::with(&source.scene, options)).collect();
         let ending = analyses.iter().map(ExitStatus::from_analysis).max();
         let Some(mut entry) = entry(&read, &analyses, report_options) else {
             return Ok(Err(Vec::new()));
@@ -288,9 +288,9 @@ impl Report {
             make_figures_legible(&mut entry, &read, analyses, report_options);
         }
         if self.accuracy_study {
-            let mut scene = read[0].0.scene.clone();
+            let mut scene = read[0].scene.clone();
             if scene.title.is_empty() {
-                scene.title = read[0].0.stem();
+                scene.title = read[0].stem();
             }
             let measured = study(&[scene], &TOLERANCES, &mut |_| {});
             entry.add_study(&measured).map_err(|e| undone(&e))?;
@@ -299,14 +299,14 @@ impl Report {
         Ok(Ok((piece, ending.unwrap_or(ExitStatus::Done))))
     }
 
-    /// Reads the scenes of a task with their text. The error contains the files that are not valid scenes.
-    fn read(&self, task: &Task) -> Result<Vec<(Source, String)>, InvalidFiles> {
+    /// Reads the scenes of a task. The error contains the files that are not valid scenes.
+    fn read(&self, task: &Task) -> Result<Vec<Source>, InvalidFiles> {
         let mut read = Vec::new();
         let mut wrong = Vec::new();
         let as_written = AnalysisArgs { set: Vec::new(), ..self.level.clone() };
         for (side, path) in task.paths().into_iter().enumerate() {
             let is_as_written = self.compare && side == 0 && self.scenes.len() == 1;
-            match source::with_text(path, if is_as_written { &as_written } else { &self.level }) {
+            match source::read_one(path, if is_as_written { &as_written } else { &self.level }) {
                 Ok(source) => read.push(source),
                 Err(complaint) => wrong.push((refused(path, &complaint), complaint)),
             }
@@ -360,9 +360,10 @@ fn refused(path: &Path, complaint: &CliError) -> Refused {
 }
 
 /// Returns the report entry of one scene, or of two scenes that are compared. Returns `None` if there is no scene.
-fn entry(read: &[(Source, String)], analyses: &[Analysis], report_options: &ReportOptions) -> Option<Entry> {
-    let names: Vec<String> = read.iter().map(|(s, _)| s.path.display().to_string()).collect();
-    let file = |i: usize| File { name: &names[i], text: &read[i].1 };
+fn entry(read: &[Source], analyses: &[Analysis], report_options: &ReportOptions) -> Option<Entry> {
+    let names: Vec<String> = read.iter().map(|s| s.path.display().to_string()).collect();
+    let texts: Vec<String> = read.iter().map(Source::text).collect();
+    let file = |i: usize| File { name: &names[i], text: &texts[i] };
     match analyses {
         [was, is] => {
             let side = |i: usize, analysis| Side { file: file(i), analysis };
@@ -377,7 +378,7 @@ fn entry(read: &[(Source, String)], analyses: &[Analysis], report_options: &Repo
 /// of these characters. The other text stays unchanged, because the program that shows the Markdown has its own fonts.
 fn make_figures_legible(
     entry: &mut Entry,
-    read: &[(Source, String)],
+    read: &[Source],
     mut analyses: Vec<Analysis>,
     report_options: &ReportOptions,
 ) {

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use crate::entry::cli::error::CliError;
 use crate::entry::request::{AnalysisArgs, FrameChoice};
 use crate::mechanics::scene::{Scene, isolate};
+use crate::pictures::output::attachment::{file_in, is_picture};
 use crate::products::snapshot::discovery::looks_like_scene;
 use crate::products::snapshot::setting::matches_pattern;
 
@@ -18,6 +19,8 @@ pub(crate) struct Source {
     pub(crate) path: PathBuf,
     /// The checked scene.
     pub(crate) scene: Scene,
+    /// Its file, with the values that `--set` changes.
+    pub(crate) file: Vec<u8>,
 }
 
 impl Source {
@@ -29,6 +32,11 @@ impl Source {
     /// Returns the path of the file for messages; `standard input` for `-`.
     pub(crate) fn name(&self) -> String {
         name(&self.path)
+    }
+
+    /// Returns the file as text.
+    pub(crate) fn text(&self) -> String {
+        String::from_utf8_lossy(&self.file).trim_start_matches('\u{feff}').to_owned()
     }
 }
 
@@ -80,7 +88,7 @@ pub(crate) fn read_each(
         return Err(CliError::CommandLine("standard input (-) can be read only once".into()));
     }
     let outcome = |path: PathBuf| {
-        let source = with_text(&path, level).and_then(|(mut source, _)| {
+        let source = read_one(&path, level).and_then(|mut source| {
             if let Some(frame) = frame {
                 source.scene = frame.of(&source.scene, &source.name()).map_err(CliError::NoSuchFrame)?;
             }
@@ -170,14 +178,23 @@ pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, CliError> {
     read.map_err(|error| CliError::not_read(name(path), error))
 }
 
-/// Reads one scene. Returns the scene together with the text of its file, with the values that `--set` changes.
-pub(crate) fn with_text(path: &Path, level: &AnalysisArgs) -> Result<(Source, String), CliError> {
+/// Reads a scene file, or the one that a PNG or a PDF carries.
+pub(crate) fn scene_bytes(path: &Path) -> Result<Vec<u8>, CliError> {
     let bytes = bytes(path)?;
+    if is_picture(&bytes) { carried(path, &bytes) } else { Ok(bytes) }
+}
+
+/// Returns the scene file that a picture carries.
+pub(crate) fn carried(path: &Path, picture: &[u8]) -> Result<Vec<u8>, CliError> {
+    file_in(picture).map_err(|error| CliError::not_read(name(path), error))
+}
+
+/// Reads one scene.
+pub(crate) fn read_one(path: &Path, level: &AnalysisArgs) -> Result<Source, CliError> {
+    let bytes = scene_bytes(path)?;
     let read = isolated(path, || level.read_scene(0, &bytes))?;
-    let (scene, bytes) = read.map_err(|problems| CliError::Scene { name: name(path), problems })?;
-    let source = Source { path: path.to_owned(), scene };
-    let text = String::from_utf8_lossy(&bytes);
-    Ok((source, text.trim_start_matches('\u{feff}').to_owned()))
+    let (scene, file) = read.map_err(|problems| CliError::Scene { name: name(path), problems })?;
+    Ok(Source { path: path.to_owned(), scene, file: file.into_owned() })
 }
 
 /// Runs `work` for one scene file. A panic in `work` becomes an error of this file.

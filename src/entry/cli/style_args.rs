@@ -7,21 +7,42 @@ use crate::entry::cli::error::CliError;
 use crate::entry::request::ThemeName;
 use crate::pictures::drawing::Theme;
 use crate::pictures::drawing::style::format::Notation;
-use crate::text::typed_word;
+use crate::text::{Word, typed_word};
 
 request! {
     /// The theme, and a style file that changes it.
     #[derive(Clone, Debug)]
     pub(crate) struct StyleArgs(given) {
         /// The look: plain with one mark at each joint, as in Vallat (2023), for print and greyscale, for all kinds of
-        /// colour vision, or for a dark page [default: plain, but thesis for scenes on a lattice]
-        theme: Option<ThemeName> = given.word("theme"),
+        /// colour vision, for a dark page, or auto for an SVG that is plain on light pages and dark on dark pages
+        /// [default: plain, but thesis for scenes on a lattice]
+        theme: Option<ThemeChoice> = given.word("theme"),
             arg(long, value_name = "NAME", env = "DRYSTONE_THEME", hide_env_values = true,
-                value_parser = typed_word::<ThemeName>());
+                value_parser = typed_word::<ThemeChoice>());
         /// A style file (.json or .toml) with your own colours, widths and sizes; `drystone style` prints one to start
         /// from
         style: Option<PathBuf> = given.text("style").map(PathBuf::from),
             arg(long, value_name = "FILE", env = "DRYSTONE_STYLE", hide_env_values = true);
+    }
+}
+
+/// A theme, or `auto` for the themes `plain` and `dark` in one SVG.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum ThemeChoice {
+    One(ThemeName),
+    Auto,
+}
+
+impl Word for ThemeChoice {
+    fn all() -> Vec<ThemeChoice> {
+        ThemeName::all().into_iter().map(ThemeChoice::One).chain([ThemeChoice::Auto]).collect()
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            ThemeChoice::One(name) => name.0,
+            ThemeChoice::Auto => "auto",
+        }
     }
 }
 
@@ -33,7 +54,7 @@ impl StyleArgs {
 
     /// Returns the name of the theme, if one was given and no style file changes it.
     pub(crate) fn name(&self) -> Option<&str> {
-        self.theme.map(|theme| theme.0).filter(|_| self.style.is_none())
+        self.theme.map(Word::word).filter(|_| self.style.is_none())
     }
 
     /// True if the command line has a theme or a style file.
@@ -41,11 +62,28 @@ impl StyleArgs {
         self.theme.is_some() || self.style.is_some()
     }
 
-    /// Returns the selected theme, with the changes that the style file makes to it.
+    /// True if the figure follows the colours that its reader prefers.
+    pub(crate) fn is_auto(&self) -> bool {
+        matches!(self.theme, Some(ThemeChoice::Auto))
+    }
+
+    /// Returns the selected theme, with the changes that the style file makes to it. Refuses `auto`.
     pub(crate) fn theme(&self) -> Result<Theme, CliError> {
-        let base = self.theme.map(ThemeName::theme);
+        if self.is_auto() {
+            return Err("--theme auto is only for render, markdown and mdbook; choose plain or dark".into());
+        }
+        self.light_theme()
+    }
+
+    /// Returns the selected theme, with the changes that the style file makes to it. The theme of `auto` is `plain`.
+    pub(crate) fn light_theme(&self) -> Result<Theme, CliError> {
+        let base = self.theme.map(|theme| match theme {
+            ThemeChoice::One(name) => name.theme(),
+            ThemeChoice::Auto => Theme::plain(),
+        });
         match &self.style {
             None => Ok(base.unwrap_or_default()),
+            Some(_) if self.is_auto() => Err("--style changes one theme; leave out --theme auto".into()),
             Some(path) => read(path, base.as_ref()),
         }
     }

@@ -19,6 +19,7 @@ pub use session::Session;
 
 use crate::entry::request::{Refused, read_json};
 use crate::mechanics::scene::{Scene, SceneError};
+use crate::pictures::output::attachment::file_in;
 use crate::products::figure::Kind;
 use crate::products::result::{problem_list, quoted, remark_list};
 use crate::sources::import::DrawingProblems;
@@ -135,6 +136,16 @@ pub fn problems(scene: &str) -> String {
         Ok(_) => "[]".into(),
         Err(error) => Refusal::from(error).problems,
     }
+}
+
+/// Returns the text of the scene file that a PNG or a PDF of `drystone render` carries.
+///
+/// # Errors
+/// Returns a message if the picture carries no scene, or a damaged one.
+#[wasm_bindgen(js_name = sceneIn)]
+pub fn scene_in(picture: &[u8]) -> Result<String, Refusal> {
+    let file = file_in(picture).map_err(|error| error.to_string())?;
+    Ok(String::from_utf8_lossy(&file).into_owned())
 }
 
 /// Turns a drawing into a scene, as `drystone import` does. `format` is svg, dxf, geojson, json or wkt. Returns the

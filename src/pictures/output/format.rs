@@ -3,6 +3,7 @@
 //! `animation`, `pdf` or `tikz`.
 
 use super::animation::{self, Step};
+use super::attachment::attached;
 use super::fonts::Fonts;
 use super::pdf::{self, PdfError};
 use super::png::{self, Compression, PngError, Size};
@@ -31,6 +32,10 @@ pub(crate) struct Settings<'f> {
     pub words: Words,
     /// The compression of a PNG.
     pub compression: Compression,
+    /// The drawing in a dark theme, for an SVG that follows the colours that a reader prefers.
+    pub dark: Option<&'f Drawing>,
+    /// The scene file that an SVG, PNG or PDF carries.
+    pub source: Option<&'f [u8]>,
     /// Fonts for text that the writer lays out.
     pub fonts: &'f Fonts,
 }
@@ -101,7 +106,9 @@ impl Format {
                 is_text: false,
                 has_pixels: false,
                 lays_out_words: true,
-                write: |drawing, settings| Ok(pdf::write_in(drawing, settings.width_mm, settings.fonts)?),
+                write: |drawing, settings| {
+                    Ok(pdf::write_in(drawing, settings.width_mm, settings.fonts, settings.source)?)
+                },
             },
             Format::Tikz => Declaration {
                 ending: "tikz",
@@ -159,14 +166,19 @@ impl Format {
 
     /// Converts a drawing to the bytes of a file in this format.
     pub(crate) fn write(self, drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, FormatError> {
-        (self.declaration().write)(drawing, settings)
+        let bytes = (self.declaration().write)(drawing, settings)?;
+        Ok(attached(bytes, settings.source))
     }
 }
 
 fn write_svg(drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, FormatError> {
     let options =
         svg::Options { width_mm: settings.width_mm, words: settings.words, fonts: settings.fonts.clone(), mark: None };
-    Ok(svg::write_with(drawing, &options)?.into_bytes())
+    let svg = match settings.dark {
+        Some(dark) => svg::write_pair(drawing, dark, &options)?,
+        None => svg::write_with(drawing, &options)?,
+    };
+    Ok(svg.into_bytes())
 }
 
 fn write_png(drawing: &Drawing, settings: &Settings<'_>) -> Result<Vec<u8>, FormatError> {

@@ -13,6 +13,8 @@
 pub mod animation;
 #[cfg(feature = "file")]
 pub mod file;
+#[cfg(any(feature = "cli", feature = "wasm"))]
+pub(crate) mod attachment;
 pub mod fonts;
 #[cfg(feature = "cli")]
 pub(crate) mod format;

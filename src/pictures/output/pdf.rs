@@ -14,6 +14,7 @@ use std::borrow::Cow;
 use krilla::Document;
 use krilla::annotation::{Annotation, LinkAnnotation, Target};
 use krilla::destination::{Destination, XyzDestination};
+use krilla::embed::{AssociationKind, EmbeddedFile, MimeType};
 use krilla::geom::{Point, Rect, Transform};
 use krilla::metadata::Metadata;
 use krilla::page::PageSettings;
@@ -73,14 +74,20 @@ const POINTS_PER_INCH: f64 = 72.0;
 /// # Ok::<(), drystone::output::pdf::PdfError>(())
 /// ```
 pub fn write(drawing: &Drawing, width_mm: Option<f64>) -> Result<Vec<u8>, PdfError> {
-    write_in(drawing, width_mm, &Fonts::default())
+    write_in(drawing, width_mm, &Fonts::default(), None)
 }
 
-/// Like [`write()`], with additional fonts. A line of text that needs an additional font is drawn as outlines.
+/// Like [`write()`], with additional fonts. A line of text that needs an additional font is drawn as outlines. The scene
+/// file `source` becomes the attachment `scene.json`.
 ///
 /// # Errors
 /// See [`write()`].
-pub fn write_in(drawing: &Drawing, width_mm: Option<f64>, fonts: &Fonts) -> Result<Vec<u8>, PdfError> {
+pub fn write_in(
+    drawing: &Drawing,
+    width_mm: Option<f64>,
+    fonts: &Fonts,
+    source: Option<&[u8]>,
+) -> Result<Vec<u8>, PdfError> {
     let natural_mm = drawing.width * MM_PER_INCH / PIXELS_PER_INCH;
     let width = width_mm.unwrap_or(natural_mm);
     let sheet = Sheet {
@@ -90,7 +97,7 @@ pub fn write_in(drawing: &Drawing, width_mm: Option<f64>, fonts: &Fonts) -> Resu
         links: Vec::new(),
     };
     let heading = Heading { title: &drawing.title, description: &drawing.description };
-    document(&[sheet], width / drawing.width, &heading, &[], fonts)
+    document(&[sheet], width / drawing.width, &heading, &[], fonts, source)
 }
 
 /// The content of an inset.
@@ -187,7 +194,7 @@ pub struct Heading<'t> {
 /// See [`write()`]; each page is checked.
 pub fn write_sheets(sheets: &[Sheet<'_>], heading: &Heading<'_>, bookmarks: &[Bookmark]) -> Result<Vec<u8>, PdfError> {
     let natural = MM_PER_INCH / PIXELS_PER_INCH;
-    document(sheets, natural, heading, bookmarks, &Fonts::default())
+    document(sheets, natural, heading, bookmarks, &Fonts::default(), None)
 }
 
 /// Returns the width and height of an SVG in pixels, or `None` if the text is not a valid SVG.
@@ -197,15 +204,29 @@ pub fn svg_size(text: &str) -> Option<(f64, f64)> {
     Some((f64::from(size.width()), f64::from(size.height())))
 }
 
-/// Writes a PDF with several pages. `mm_per_pixel` is the length of a pixel in millimetres.
+/// Writes a PDF with several pages. `mm_per_pixel` is the length of a pixel in millimetres. `source` is a scene file, which
+/// is attached.
 fn document(
     sheets: &[Sheet<'_>],
     mm_per_pixel: f64,
     heading: &Heading<'_>,
     bookmarks: &[Bookmark],
     fonts: &Fonts,
+    source: Option<&[u8]>,
 ) -> Result<Vec<u8>, PdfError> {
     let mut document = Document::new();
+    if let Some(file) = source {
+        document.embed_file(EmbeddedFile {
+            path: "scene.json".into(),
+            mime_type: MimeType::new("application/json"),
+            description: None,
+            association_kind: AssociationKind::Source,
+            data: file.to_vec().into(),
+            modification_date: None,
+            compress: Some(true),
+            location: None,
+        });
+    }
     document.set_metadata(
         Metadata::new()
             .title(line(heading.title))

@@ -11,6 +11,8 @@ mod font;
 mod glyph;
 mod option;
 mod outline;
+#[cfg(feature = "report")]
+mod pair;
 mod words;
 /// Rounds a number to ten significant digits.
 ///
@@ -122,6 +124,16 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, Outlin
             Ok(document(drawing, options.width_mm, &mark, form))
         }
     }
+}
+
+/// Writes a figure in a light and a dark theme as one SVG document, which follows the colours that a reader prefers. The
+/// drawings may differ only in colours.
+#[cfg(feature = "report")]
+pub(crate) fn write_pair(light: &Drawing, dark: &Drawing, options: &Options) -> Result<String, OutlineError> {
+    let mark = mark_of(light, options);
+    let options = options.clone().mark(mark.clone());
+    let [light, dark] = [write_with(light, &options)?, write_with(dark, &options)?];
+    pair::merged(&light, &dark, &mark).ok_or_else(|| OutlineError("the themes differ in more than colours".into()))
 }
 
 /// Lays out all text of the drawing. Returns the drawing as a tree in which the lines of text have the ids `t1`, `t2` …

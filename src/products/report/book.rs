@@ -1,7 +1,8 @@
-//! [`illustrate`]: an mdBook preprocessor, which draws the scenes in the chapters of a book.
+//! Draws the scenes in Markdown: [`illustrate`] is an mdBook preprocessor, which puts figures into the chapters of a book,
+//! and [`illustrate_text`] writes figures of one text as files.
 //!
-//! A fenced code block with the language `drystone` contains a scene, or names a scene file with `file=…`. The
-//! preprocessor replaces the block by a figure with a caption. Options follow the word `drystone`, as `name=value` or
+//! A fenced code block with the language `drystone` contains a scene, or names a scene file with `file=…`. A figure with a
+//! caption replaces the block. Options follow the word `drystone`, as `name=value` or
 //! `name`:
 //!
 //! | option | meaning |
@@ -9,7 +10,7 @@
 //! | `file=scene.json` | the scene file; its path is relative to the file of the chapter |
 //! | `kind=mechanism` | the kind of figure: the name of a [`Kind`]; without this option, `forces` |
 //! | `block=a` | the id of the block in a free-body diagram; not needed if the scene has only one block |
-//! | `theme=dark` | the theme of the figure |
+//! | `theme=dark` | the theme of the figure; `auto` follows the colours that the reader prefers |
 //! | `width=600` | the width of the figure in pixels |
 //! | `amounts` | the arrows have labels with their magnitudes, in frames with at most 60 blocks |
 //! | `nocaption` | no caption below the figure |
@@ -67,6 +68,35 @@ pub fn illustrate(input: &str) -> Result<String, BookError> {
     if problems.is_empty() { Ok(book.to_string()) } else { Err(BookError(problems)) }
 }
 
+/// A figure of a text, as a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Illustration {
+    /// The name of the file.
+    pub name: String,
+    /// The picture.
+    pub svg: String,
+    /// The scene file.
+    pub scene: String,
+}
+
+/// Draws the scenes in a Markdown text. `path` is its file. Returns the text, with references to pictures in place of the
+/// scenes, and the pictures, whose names begin with `stem`.
+///
+/// # Errors
+/// If scenes cannot be drawn. For each of these scenes, the error states the line and the reason.
+pub fn illustrate_text(content: &str, path: &Path, stem: &str) -> Result<(String, Vec<Illustration>), BookError> {
+    let (mut pictures, mut problems) = (Vec::new(), Vec::new());
+    let drawn = illustrated(content, path, &mut problems, &mut |figure| {
+        let name = format!("{stem}-{}.svg", pictures.len() + 1);
+        let caption = text::markdown(&figure.caption);
+        let below = if figure.shows_caption { format!("\n\n*{caption}*") } else { String::new() };
+        let reference = format!("![{caption}](<{name}>){below}");
+        pictures.push(Illustration { name, svg: figure.svg, scene: figure.scene });
+        reference
+    });
+    if problems.is_empty() { Ok((drawn, pictures)) } else { Err(BookError(problems)) }
+}
+
 /// Draws the scenes in a chapter and in its sub-chapters. `source` is the folder of the chapter files. Adds a message
 /// to `problems` for each scene that cannot be drawn.
 fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
@@ -75,7 +105,7 @@ fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
     if let Some(content) = chapter.get_mut("content")
         && let Some(text) = content.as_str()
     {
-        *content = Value::String(illustrated(text, &path, problems));
+        *content = Value::String(illustrated(text, &path, problems, &mut html));
     }
     if let Some(items) = chapter.get_mut("sub_items").and_then(Value::as_array_mut) {
         for below in items.iter_mut().filter_map(|i| i.get_mut("Chapter")) {
@@ -85,8 +115,14 @@ fn chapter(chapter: &mut Value, source: &Path, problems: &mut Vec<String>) {
 }
 
 /// Returns the text of a chapter with a figure in place of each code block of the language `drystone`. `path` is the
-/// file of the chapter. Adds a message to `problems` for each code block that cannot be drawn.
-fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String {
+/// file of the chapter, and `placed` writes a figure as text. Adds a message to `problems` for each code block that
+/// cannot be drawn.
+fn illustrated(
+    content: &str,
+    path: &Path,
+    problems: &mut Vec<String>,
+    placed: &mut dyn FnMut(Figure) -> String,
+) -> String {
     let mut drawn = String::new();
     let mut done = 0;
     let mut parser = Parser::new_ext(content, Options::all()).into_offset_iter();
@@ -108,10 +144,13 @@ fn illustrated(content: &str, path: &Path, problems: &mut Vec<String>) -> String
         }
         let line = content[..place.start].matches('\n').count() + 1;
         match figure(options, &body, path) {
-            Ok(html) => {
+            Ok(figure) => {
+                let text = placed(figure);
                 drawn.push_str(&content[done..place.start]);
-                drawn.push_str(&html.replace('\n', &format!("\n{}", margin(content, place.start))));
-                drawn.push_str("\n\n");
+                drawn.push_str(&text.replace('\n', &format!("\n{}", margin(content, place.start))));
+                if !content[place.end..].starts_with("\n\n") {
+                    drawn.push_str("\n\n");
+                }
                 done = place.end;
             }
             Err(why) => {
@@ -139,7 +178,19 @@ struct FigureRequest {
     kind: String,
     block: Option<String>,
     caption: bool,
+    /// Whether the figure follows the colours that the reader prefers.
+    is_auto: bool,
     options: figure::Options,
+}
+
+/// A figure for a text.
+struct Figure {
+    svg: String,
+    caption: String,
+    /// Whether the caption stands below the figure.
+    shows_caption: bool,
+    /// The scene file.
+    scene: String,
 }
 
 impl FigureRequest {
@@ -149,6 +200,7 @@ impl FigureRequest {
             kind: "forces".to_owned(),
             block: None,
             caption: true,
+            is_auto: false,
             options: figure::Options::default(),
         };
         for word in words.split([' ', ',', '\t']).filter(|w| !w.is_empty()) {
@@ -157,9 +209,10 @@ impl FigureRequest {
                 ("file", value) if !value.is_empty() => request.file = Some(value.to_owned()),
                 ("kind", value) if !value.is_empty() => value.clone_into(&mut request.kind),
                 ("block", value) if !value.is_empty() => request.block = Some(value.to_owned()),
+                ("theme", "auto") => (request.is_auto, request.options.theme) = (true, Theme::plain()),
                 ("theme", value) => {
                     request.options.theme = Theme::named(value)
-                        .ok_or(format!("there is no theme {value:?}; known are {}", Theme::NAMES.join(", ")))?;
+                        .ok_or(format!("there is no theme {value:?}; known are {}, auto", Theme::NAMES.join(", ")))?;
                 }
                 ("width", value) => {
                     let width = value.parse().ok().filter(|w| (100.0..=4000.0).contains(w));
@@ -178,9 +231,9 @@ impl FigureRequest {
     }
 }
 
-/// Returns the HTML figure for a code block, or the reason why it cannot be drawn. `words` are the options of the code
+/// Returns the figure for a code block, or the reason why it cannot be drawn. `words` are the options of the code
 /// block, `body` is its content, and `chapter` is the file of the chapter.
-fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
+fn figure(words: &str, body: &str, chapter: &Path) -> Result<Figure, String> {
     let request = FigureRequest::read(words)?;
     let text = match &request.file {
         Some(file) => {
@@ -197,29 +250,39 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<String, String> {
         format!("{whose}:\n{problems}")
     })?;
     let analysis = Analysis::new(&scene);
-    let drawing = drawing(&analysis, &request)?;
+    let light = drawing(&analysis, &request, request.options.clone())?;
     let words = svg::Options {
         // Text drawn as outlines looks the same on machines without the fonts.
         words: svg::Words::Outlines,
         ..svg::Options::default()
     };
-    let svg = svg::write_with(&drawing, &words).map_err(|e| e.to_string())?;
+    let svg = if request.is_auto {
+        let options = figure::Options { theme: Theme::dark(), ..request.options.clone() };
+        svg::write_pair(&light, &drawing(&analysis, &request, options)?, &words)
+    } else {
+        svg::write_with(&light, &words)
+    };
+    let caption = text::line(&figure::caption(&analysis));
+    Ok(Figure { svg: svg.map_err(|e| e.to_string())?, caption, shows_caption: request.caption, scene: text })
+}
+
+/// Writes a figure as HTML.
+fn html(figure: Figure) -> String {
     // An empty line would end the HTML block in Markdown.
-    let lines: Vec<&str> = svg.lines().filter(|l| !l.trim().is_empty()).collect();
-    let caption = if request.caption {
-        maud::html! { figcaption { (text::line(&figure::caption(&analysis))) } }.into_string()
+    let lines: Vec<&str> = figure.svg.lines().filter(|l| !l.trim().is_empty()).collect();
+    let caption = if figure.shows_caption {
+        maud::html! { figcaption { (figure.caption) } }.into_string()
     } else {
         String::new()
     };
-    Ok(format!("<figure class=\"drystone\" style=\"overflow-x: auto\">\n{}\n{caption}</figure>", lines.join("\n")))
+    format!("<figure class=\"drystone\" style=\"overflow-x: auto\">\n{}\n{caption}</figure>", lines.join("\n"))
 }
 
-fn drawing(analysis: &Analysis, request: &FigureRequest) -> Result<Drawing, String> {
+fn drawing(analysis: &Analysis, request: &FigureRequest, mut options: figure::Options) -> Result<Drawing, String> {
     let name = request.kind.as_str();
     let known = || Kind::ALL.map(Kind::name).join(", ");
     let kind =
         Kind::from_name(name).ok_or_else(|| format!("there is no kind of figure {name:?}; known are {}", known()))?;
-    let mut options = request.options.clone();
     if kind.shows_one_block() {
         let scene = &analysis.scene;
         let block = match &request.block {

@@ -236,7 +236,7 @@ fn pictures_are_400_pixels_wide_and_named_after_their_lines() {
     // The picture equals that of `render` without a margin.
     let ran = bench.run("batch stands.json --render more --format svg");
     assert_eq!(lines(&ran.out)[0]["picture"], "stands.svg");
-    bench.run("render stands.json --no-margin -o alone.svg");
+    bench.run("render stands.json --no-margin --no-source -o alone.svg");
     let both = ["more/stands.svg", "alone.svg"].map(|n| fs::read(bench.path(n)).expect("there"));
     assert!(both[0] == both[1]);
     fs::create_dir(bench.path("more/in")).expect("made");

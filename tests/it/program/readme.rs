@@ -58,6 +58,7 @@ fn every_command_of_the_page_succeeds() {
         ("scenes/one.json", scene),
         ("scenes/two.json", &other),
         ("corpus.ndjson", &(line(scene) + &line(&other))),
+        ("in.md", "```drystone file=scene.json\n```\n"),
         ("vehicle.json", include_str!("../../../assets/questions/bridge-vehicle.json")),
         ("drawing.svg", include_str!("../../../assets/import/doorway.svg")),
         ("bridge.dxf", include_str!("../../../assets/import/arch.dxf")),

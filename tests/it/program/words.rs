@@ -112,6 +112,7 @@ fn help_describes_commands_limits_and_exit_codes() {
         "figures",
         "import",
         "man",
+        "markdown",
         "mdbook",
         "new arch",
         "plan",
@@ -130,7 +131,7 @@ fn help_describes_commands_limits_and_exit_codes() {
 fn the_readmes_figure_is_what_the_program_draws() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let bench = Bench::new();
-    let mut command = bench.command("render --width 1200 -o figure.png");
+    let mut command = bench.command("render --width 1200 --no-source -o figure.png");
     command.arg(root.join("assets/thesis/figure-4.json"));
     assert_eq!(ran(command).code, 0);
     let drawn = fs::read(bench.path("figure.png")).expect("written");
@@ -151,7 +152,7 @@ fn the_readmes_gallery_is_what_the_program_draws() {
     let update = std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none();
     for name in ["aqueduct", "cathedral", "corbelled-vault", "flying-buttress", "gabled-wall"] {
         // The same options as in `examples/gallery.py`.
-        let line = "render --kind flow --no-key --width-mm 100 --dpi 120 --strict -o picture.png";
+        let line = "render --kind flow --no-key --width-mm 100 --dpi 120 --strict --no-source -o picture.png";
         let mut command = bench.command(line);
         command.arg(folder.join(format!("{name}.json")));
         let ran = ran(command);

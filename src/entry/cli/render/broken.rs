@@ -59,7 +59,7 @@ impl Render {
         format: Format,
         fonts: &Fonts,
     ) -> Result<Result<(Sketch, Vec<u8>), CliError>, CliError> {
-        let bytes = source::bytes(path)?;
+        let bytes = source::scene_bytes(path)?;
         let sketched = isolated(path, || {
             let sketch = Sketch::from_bytes(&bytes, self.draw.figure.level.contact_tolerance);
             let drawing = figure::broken(&sketch, options);
