@@ -130,6 +130,11 @@ impl Analysis {
         frame.map_or_else(Vec::new, |f| f.placed.iter().map(|b| b.0).collect())
     }
 
+    /// Returns a caption for a figure: the title, and what stands or falls.
+    fn caption(&self) -> String {
+        crate::products::figure::caption(&self.analysis)
+    }
+
     /// Draws a figure of all frames, or only of the frame with the index `frame`, and returns the bytes of the picture
     /// file. `request` are options of `render` as JSON, and the file extension `ending` selects the format.
     fn figure(&self, py: Python<'_>, request: &str, ending: &str, frame: Option<usize>) -> PyResult<Vec<u8>> {
