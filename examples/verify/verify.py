@@ -1,305 +1,200 @@
 #!/usr/bin/env python3
-"""verify.py FILE…: checks certificates of `drystone check --certificate` in exact arithmetic.
-
-Written from the page src/doc/certificate.md, with the standard library alone. Exit code 0 if everything is proved."""
-import itertools
+"""verify.py FILE…: checks certificates of `drystone check --certificate` in exact arithmetic, with Python alone.
+Written from the page src/doc/certificate.md. Exit code 0 if everything is proved."""
 import json
-import math
 import sys
-from fractions import Fraction as F
+from fractions import Fraction
+from itertools import chain, combinations, product
 
-TAN_OF_ANGLE = F(1, 100)  # the largest angle between a contact and the edges that it lies at
-
-vec = lambda p: (F(p[0]), F(p[1]))
+TAN_OF_ANGLE = Fraction(1, 100)  # the largest angle between a contact and the edges that it lies at
+REST = (0, 0, 0)
 sub = lambda p, q: (p[0] - q[0], p[1] - q[1])
-dot = lambda p, q: p[0] * q[0] + p[1] * q[1]
-cross = lambda p, q: p[0] * q[1] - p[1] * q[0]
-turned = lambda g, h: math.degrees(math.atan2(cross(g, h), dot(g, h)))
+dot = lambda a, b: sum(x * y for x, y in zip(a, b))
+cross = lambda a, b: a[0] * b[1] - a[1] * b[0]
+left = lambda a: (-a[1], a[0])
+apart2 = lambda p, q: dot(sub(p, q), sub(p, q))
+plus = lambda total, other, factor: [a + factor * b for a, b in zip(total, other)]
+wrench = lambda force, at: [force[0], force[1], cross(at, force)]  # a force and its moment about the origin
+threes = lambda values: list(zip(values[::3], values[1::3], values[2::3]))
+limits_of = lambda frame: list(chain(*(frame.get("grip_limits") or [g["limits"] for g in frame.get("grips", [])])))
 
-def wrench(force, at):
-    """A force and its moment about the origin."""
-    return [force[0], force[1], cross(at, force)]
-
-def add(total, w, factor=1):
-    for i in range(3):
-        total[i] += factor * w[i]
-
-def edges(body):
-    """The edges of outline and holes, each with the body on its left; none for a circle."""
-    out = []
-    if "circle" in body:
-        return out
-    for k, ring in enumerate([body["outline"]] + body.get("holes", [])):
-        ring = [vec(p) for p in ring]
-        pairs = list(zip(ring, ring[1:] + ring[:1]))
-        left = (sum(cross(p, q) for p, q in pairs) > 0) == (k == 0)
-        out += pairs if left else [(q, p) for p, q in pairs]
-    return out
+def prepare(body):
+    """A body with its edges, centre, and the box around it. A circle is one edge without length, with a radius."""
+    circle = body.get("circle", {"centre": [0, 0], "radius": 0})
+    rings = [[circle["centre"]]] if "circle" in body else [body["outline"], *body.get("holes", [])]
+    rings = [list(zip(ring, ring[1:] + ring[:1])) for ring in rings]
+    sizes = [sum(cross(p, q) for p, q in ring) for ring in rings]
+    moments = [sum(cross(p, q) * (p[x] + q[x]) for ring in rings for p, q in ring) for x in (0, 1)]
+    centre = [Fraction(moment) / sum(sizes) / 3 for moment in moments] if sum(sizes) else circle["centre"]
+    r, places = circle["radius"], [[p[x] for p, _ in rings[0]] for x in (0, 1)]
+    box, edges = [(min(line) - r, max(line) + r) for line in places], sum(rings, [])
+    is_fine = r > 0 or (sum(sizes) > 0 and all((size > 0) == (k == 0) for k, size in enumerate(sizes)))
+    return {"centre": centre, **body, "edges": edges, "radius": r, "box": box, "is_fine": is_fine}
 
 def load(body, index, frame):
-    """Weight at the centroid, listed loads times the load factor, and the further load, as one wrench."""
-    if body.get("centre") or "circle" in body:
-        centre = vec(body.get("centre") or body["circle"]["centre"])
-    else:
-        parts = [(cross(p, q), p[0] + q[0], p[1] + q[1]) for p, q in edges(body)]
-        area = 3 * sum(a for a, _, _ in parts)
-        centre = sum(a * x for a, x, _ in parts) / area, sum(a * y for a, _, y in parts) / area
-    total = wrench([g * F(body["weight"]) for g in vec(frame["gravity"])], centre)
-    factor = F(frame.get("load_factor", 1))
-    items = [(item, 1 if item.get("fixed") else factor) for item in body.get("loads", [])]
-    further = frame.get("force")
-    for item, factor in items + ([(further[1], 1)] if further and further[0] == index else []):
-        add(total, wrench(vec(item["force"]), vec(item["at"])), factor)
-        total[2] += factor * F(item["torque"])
+    """The weight at the centre, the listed loads times the load factor, and the further load, as one wrench."""
+    total = wrench([g * body["weight"] for g in frame["gravity"]], body["centre"])
+    loads = [(item, 1 if item.get("fixed") else frame.get("load_factor", 1)) for item in body.get("loads", [])]
+    loaded, further = frame.get("force") or (None, None)
+    for item, factor in loads + [(further, 1)] * (loaded == index):
+        total = plus(plus(total, wrench(item["force"], item["at"]), factor), (0, 0, item["torque"]), factor)
     return total
 
-def axes(contact):
-    """Normal and tangent, not normalised."""
-    if len(contact["points"]) == 2:
-        t = sub(vec(contact["points"][1]), vec(contact["points"][0]))
-        return (t[1], -t[0]), t
-    n = vec(contact["normal"])
-    return n, (-n[1], n[0])
-
-def grips(frame, values):
-    """The robot, the limit and the value of each component of a grip."""
-    limits = [(g["robot"], limit) for g in frame.get("grips", []) for limit in g["limits"]]
-    return [(*both, value) for both, value in zip(limits, values[3 * len(frame["contacts"]) :])]
+def line(contact, frame):
+    """The normal of a contact and the points of its forces. A safety kernel moves these inward from its ends."""
+    if "normal" in contact:
+        return contact["normal"], contact["points"]
+    ends, inward = contact["points"], Fraction(frame.get("kernel", 0)) / 2
+    return left(sub(*ends)), [plus(p, sub(q, p), inward) for p, q in (ends, ends[::-1])]
 
 def components(frame):
-    """For each component: the first body, the second body or None, and the wrench on the first."""
-    out = []
+    """Each component of a contact or a grip as the wrenches on its bodies."""
+    parts = []
     for c in frame["contacts"]:
-        (n, t), p = axes(c), [vec(q) for q in c["points"]]
-        out += [(c["bodies"][0], c["bodies"][1], w) for w in (wrench(n, p[0]), wrench(n, p[-1]), wrench(t, p[0]))]
+        (n, points), (on, other) = line(c, frame), c["bodies"]
+        three = wrench(n, points[0]), wrench(n, points[-1]), wrench(left(n), points[0])
+        parts += [{on: w, other: [-v for v in w]} for w in three]
     for g in frame.get("grips", []):
-        out += [(g["body"], None, w) for w in (wrench((1, 0), vec(g["at"])), wrench((0, 1), vec(g["at"])), (0, 0, 1))]
-    return out
+        parts += [{g["body"]: w} for w in (wrench((1, 0), g["at"]), wrench((0, 1), g["at"]), (0, 0, 1))]
+    return parts
 
-def solve(rows):
-    """Solves equations, each with its right side at the end; what they leave free is 0. None if they contradict."""
-    rows, pivots = [[F(v) for v in row] for row in rows], []
-    for j in range(len(rows[0]) - 1 if rows else 0):
-        at = len(pivots)
-        pivot = next((i for i in range(at, len(rows)) if rows[i][j]), None)
-        if pivot is not None:
-            rows[at], rows[pivot] = rows[pivot], rows[at]
-            rows[at] = own = [v / rows[at][j] for v in rows[at]]
-            rows = [r if i == at or not r[j] else [v - r[j] * o for v, o in zip(r, own)] for i, r in enumerate(rows)]
-            pivots.append(j)
-    found = {j: rows[i][-1] for i, j in enumerate(pivots)}
-    return None if any(row[-1] for row in rows[len(pivots) :]) else [found.get(j, 0) for j in range(len((rows or [[0]])[0]) - 1)]
-
-def on_body(part, body):
-    """The wrench of a component on a body."""
-    return part[2] if part[0] == body else [-v for v in part[2]] if part[1] == body else [0, 0, 0]
+def solve(rows, unknowns):
+    """Solves equations, each with its right side at the end. What they leave free is 0; all, if they contradict."""
+    pivots = {}
+    for j in range(unknowns):
+        pivot = next((row for row in rows if row[j]), None)
+        if pivot:
+            own = [Fraction(v) / pivot[j] for v in pivot]
+            rows = [plus(row, own, -row[j]) for row in rows if row is not pivot]
+            pivots = {k: plus(row, own, -row[j]) for k, row in pivots.items()} | {j: own}
+    is_solved = not any(row[-1] for row in rows)
+    return [pivots[j][-1] if is_solved and j in pivots else 0 for j in range(unknowns)]
 
 def stands(bodies, frame):
     """Yields what is wrong with the forces of a frame."""
-    given, parts = frame["forces"], components(frame)
-    amounts = [F(v) for three in given["contacts"] + given["grips"] for v in three]
-    residual = {k: load(bodies[k], k, frame) for k in frame["placed"]}
-    for amount, part in zip(amounts, parts, strict=True):
-        for k in set(part[:2]) & set(residual):
-            add(residual[k], on_body(part, k), amount)
-    done = set()
-    for own, by in given["order"]:
-        if done & set(own) or any(done & set(parts[k][:2]) or not set(own) & set(parts[k][:2]) for k in by):
-            yield f"the order is wrong at {own}"
-        done |= set(own)
-        changes = solve([[on_body(parts[k], b)[i] for k in by] + [-residual[b][i]] for b in own for i in range(3)])
-        for k, change in zip(by, changes or []):
-            amounts[k] += change
-            for body in set(parts[k][:2]) & set(residual):
-                add(residual[body], on_body(parts[k], body), change)
-    for k, r in residual.items():
-        if any(r):
-            yield f"{bodies[k]['id']} does not balance by {float(max(map(abs, r))):.1e} N"
-    for k, c in enumerate(frame["contacts"]):
-        n1, n2, t = amounts[3 * k : 3 * k + 3]
-        slack = min(n1, n2, F(c["friction"]) * (n1 + n2) - abs(t))
-        if slack < 0 or (len(c["points"]) == 1 and n2 != 0):
+    forces, parts = frame["forces"], components(frame)
+    amounts, residual = [0] * len(parts), {k: load(bodies[k], k, frame) for k in frame["placed"]}
+    def change(part, amount):
+        amounts[part] += amount
+        for body in parts[part].keys() & residual.keys():
+            residual[body] = plus(residual[body], parts[part][body], amount)
+    for part, amount in enumerate(chain(*forces["contacts"], *forces["grips"])):
+        change(part, amount)
+    for own, by in forces["order"]:
+        rows = [[parts[k].get(b, REST)[i] for k in by] + [-residual[b][i]] for b in own for i in range(3)]
+        for k, amount in zip(by, solve(rows, len(by))):
+            change(k, amount)
+    yield from (f"{bodies[k]['id']} does not balance" for k, rest in residual.items() if any(rest))
+    for k, (c, (n1, n2, t)) in enumerate(zip(frame["contacts"], threes(amounts))):
+        friction = frame.get("friction", c["friction"])
+        slack = min(n1, n2, friction * (n1 + n2) - abs(t), -n2 if "normal" in c else 0)
+        if slack < 0:
             yield f"contact {k} leaves its law by {float(-slack):.1e}"
-    for robot, limit, amount in grips(frame, amounts):
-        if limit is not None and abs(amount) > F(limit):
-            yield f"{robot} exceeds its limit"
+    grips = zip(limits_of(frame), amounts[3 * len(frame["contacts"]) :])
+    excess = [abs(amount) - limit for limit, amount in grips if limit is not None]
+    yield from (f"a robot exceeds its limit by {float(by):.1e}" for by in excess if by > 0)
 
 def falls(bodies, frame):
     """Yields what is wrong with the motion of a frame."""
-    motion = {}
-    for m in frame["motion"]:
-        a, v, w = vec(m["at"]), vec(m["velocity"]), F(m["spin"])
-        motion[m["body"]] = [v[0] + w * a[1], v[1] - w * a[0], w]  # the velocity of the origin, and the spin
-    power = lambda w, body: sum(a * b for a, b in zip(w, motion.get(body, (0, 0, 0))))
-    parts = components(frame)
-    speed = lambda part: power(part[2], part[0]) - power(part[2], part[1])
-    for own, by in frame.get("still", []):
-        changes = solve([[v for b in own for v in on_body(parts[k], b)] + [-speed(parts[k])] for k in by])
-        for i, change in enumerate(changes or []):
-            motion.setdefault(own[i // 3], [F(0)] * 3)[i % 3] += change
+    motion, parts = {k: REST for k in frame["placed"]}, components(frame)
+    for m in frame["motion"]:  # the velocity of the origin, and the spin
+        motion[m["body"]] = plus([*m["velocity"], m["spin"]], (m["at"][1], -m["at"][0], 0), m["spin"])
+    speed = lambda part: sum(dot(w, motion.get(body, REST)) for body, w in part.items())
+    for own, by in frame["still"]:
+        rows = [[v for b in own for v in parts[k].get(b, REST)] + [-speed(parts[k])] for k in by]
+        for body, change in zip(own, threes(solve(rows, 3 * len(own)))):
+            motion[body] = plus(motion[body], change, 1)
     speeds = [speed(part) for part in parts]
-    total = sum(power(load(bodies[k], k, frame), k) for k in frame["placed"])
-    for k, c in enumerate(frame["contacts"]):
-        n1, n2, t = speeds[3 * k : 3 * k + 3]
-        if min(n1, n2) < F(c["friction"]) * abs(t):
-            yield f"contact {k} can resist by {float(F(c['friction']) * abs(t) - min(n1, n2)):.1e}"
-    for robot, limit, speed in grips(frame, speeds):
-        total -= F(limit or 0) * abs(speed)
-        if limit is None and speed:
-            yield f"{robot} holds, but moves by {float(speed):.1e}"
-    if total <= 0:
-        yield f"the loads do no work: {float(total):.1e}"
+    for k, (c, (n1, n2, t)) in enumerate(zip(frame["contacts"], threes(speeds))):
+        slack = min(n1, n2) - frame.get("friction", c["friction"]) * abs(t)
+        if slack < 0:
+            yield f"contact {k} can resist by {float(-slack):.1e}"
+    grips = list(zip(limits_of(frame), speeds[3 * len(frame["contacts"]) :]))
+    yield from (f"a robot holds, but moves by {float(moves):.1e}" for limit, moves in grips if limit is None and moves)
+    power = sum(dot(load(bodies[k], k, frame), motion[k]) for k in frame["placed"])
+    power -= sum((limit or 0) * abs(moves) for limit, moves in grips)
+    if power <= 0:
+        yield f"the loads do no work: {float(power):.1e}"
 
-def distance2(at, a, b):
-    """The square of the distance of a point from a segment."""
-    along, start = sub(b, a), sub(at, a)
-    length, place = dot(along, along), dot(along, start)
-    if 0 < place < length:
-        return cross(along, start) ** 2 / length
-    return min(dot(start, start), dot(sub(at, b), sub(at, b)))
+def foot(p, a, b):
+    """The point of a segment that is nearest to p."""
+    share = Fraction(dot(sub(b, a), sub(p, a))) / (apart2(a, b) or 1)
+    return plus(a, sub(b, a), min(max(share, 0), 1))
 
-def places(file, frame, edges_of, farthest):
-    """Yields what is wrong with the places and normals of the contacts; and, for a fall, which contacts are missing."""
-    bodies, near = file["bodies"], F(file["distance"]) ** 2
+def places(file, frame, farthest):
+    """Yields what is wrong with the places and normals of the contacts. Adds the distances of points to `farthest`."""
     for k, c in enumerate(frame["contacts"]):
-        n, p, faces, between = axes(c)[0], vec(c["points"][0]), False, len(c["points"]) == 1
-        for body, sign in zip(c["bodies"], (1, -1)):
-            if circle := bodies[body].get("circle"):
-                r, d, inner = F(circle["radius"]), F(file["distance"]), sub(vec(circle["centre"]), p)
-                off, along = dot(inner, inner), sign * dot(n, inner)
-                at = max(r - d, 0) ** 2 <= off <= (r + d) ** 2 and len(c["points"]) == 1
-                farthest[0] = max(farthest[0], F(abs(math.sqrt(off) - circle["radius"])) ** 2)
-                faces = faces or (along > 0 and cross(n, inner) ** 2 <= (TAN_OF_ANGLE * along) ** 2)
-            else:
-                least = max(min(distance2(vec(q), a, b) for a, b in edges_of[body]) for q in c["points"])
-                farthest[0], at = max(farthest[0], least), least <= near
-            if not at:
-                yield f"contact {k}: a point is not at {bodies[body]['id']}"
-            for a, b in edges_of[body]:
-                along, across = sign * cross(sub(b, a), n), dot(sub(b, a), n)
-                straight = along > 0 and across**2 <= (TAN_OF_ANGLE * along) ** 2
-                faces = faces or (straight and distance2(p, a, b) <= near)
-            ways = [sub(e[1 - i], e[i]) for e in edges_of[body] for i in (0, 1) if dot(sub(e[i], p), sub(e[i], p)) <= near]
+        n, p, faces, separates = line(c, frame)[0], c["points"][0], False, len(c["points"]) == 1
+        for body, sign in zip([file["bodies"][b] for b in c["bodies"]], (1, -1)):
+            r, d, edges = body["radius"], file["distance"], body["edges"]
+            away2 = max(min(apart2(q, foot(q, *edge)) for edge in edges) for q in c["points"])
+            farthest.append(abs(float(away2) ** 0.5 - float(r)))
+            if not max(r - d, 0) ** 2 <= away2 <= (r + d) ** 2 or (r and len(c["points"]) == 2):
+                yield f"contact {k}: a point is not at {body['id']}"
+            inner = [sub(a, p) if r else left(sub(b, a)) for a, b in edges if apart2(p, foot(p, a, b)) <= (r + d) ** 2]
+            faces |= any(0 < sign * dot(n, i) and cross(n, i) ** 2 <= (TAN_OF_ANGLE * dot(n, i)) ** 2 for i in inner)
+            ways = [sub(b, a) for edge in edges for a, b in (edge, edge[::-1]) if apart2(a, p) <= d**2]
             flat = [sign * dot(n, w) >= 0 or dot(n, w) ** 2 <= (TAN_OF_ANGLE * cross(n, w)) ** 2 for w in ways]
-            between = between and len(ways) == 2 and all(flat)
-        if not faces and not between:
+            separates &= len(ways) == 2 and all(flat)
+        if not faces and not separates:
             yield f"contact {k}: its normal is not that of the outlines"
-    if frame["verdict"] == "unstable":
-        ground = [k for k, body in enumerate(bodies) if body["ground"]]
-        for one, two in itertools.combinations(ground + frame["placed"], 2):
-            if two not in ground and touch(file, frame, one, two, edges_of):
-                yield f"{bodies[one]['id']} and {bodies[two]['id']} touch without a contact"
 
-def span(body, x):
-    """The least and the greatest coordinate of a body."""
-    if circle := body.get("circle"):
-        return circle["centre"][x] - circle["radius"], circle["centre"][x] + circle["radius"]
-    return min(p[x] for p in body["outline"]), max(p[x] for p in body["outline"])
+def missing(file, frame):
+    """Yields the pairs of bodies that touch without a contact."""
+    bodies, placed, margin = file["bodies"], frame["placed"], 2 * file["distance"]
+    ground = [k for k, body in enumerate(bodies) if body["ground"]]
+    for k, m in chain(product(ground, placed), combinations(placed, 2)):
+        one, two = bodies[k], bodies[m]
+        if all(a[0] - margin <= b[1] and b[0] - margin <= a[1] for a, b in zip(one["box"], two["box"])):
+            own = [c["points"] for c in frame["contacts"] if {*c["bodies"]} == {k, m}]
+            if any(touch(file, one, two, own, edges) for edges in product(one["edges"], two["edges"])):
+                yield f"{one['id']} and {two['id']} touch without a contact"
 
-def circles_touch(file, rounds, edges_of, own):
-    """Whether a circle comes close to another circle or to an edge where there is no contact."""
-    d, shortest = F(file["distance"]), F(file["shortest"])
-    if all(rounds):
-        apart = sub(vec(rounds[0]["centre"]), vec(rounds[1]["centre"]))
-        return not own and dot(apart, apart) <= (F(rounds[0]["radius"]) + F(rounds[1]["radius"]) + d) ** 2
-    circle, sides = (rounds[0], edges_of[1]) if rounds[0] else (rounds[1], edges_of[0])
-    centre, r = vec(circle["centre"]), F(circle["radius"])
-    for a, b in sides:
-        along = sub(b, a)
-        share = dot(along, sub(centre, a)) / dot(along, along)
-        if distance2(centre, a, b) > (r + d) ** 2 or (not 0 <= share <= 1 and not file["corners_carry"]):
-            continue
-        share = min(max(share, 0), 1)
-        foot = a[0] + share * along[0], a[1] + share * along[1]
-        if all(dot(sub(foot, vec(s[0])), sub(foot, vec(s[0]))) > (2 * d + shortest) ** 2 + 4 * r * d for s in own):
-            return True
-    return False
-
-def touch(file, frame, one, two, edges_of):
-    """Whether two bodies come close where they have no contact."""
-    box = [[span(file["bodies"][k], x) for x in (0, 1)] for k in (one, two)]
-    if any(box[i][x][0] - 2 * file["distance"] > box[1 - i][x][1] for i in (0, 1) for x in (0, 1)):
-        return False
-    near, covered = F(file["distance"]) ** 2, (2 * F(file["distance"]) + F(file["shortest"])) ** 2
-    own = [c.get("ends") or c["points"] for c in frame["contacts"] if sorted(c["bodies"]) == sorted((one, two))]
-    rounds = [file["bodies"][k].get("circle") for k in (one, two)]
-    if any(rounds):
-        return circles_touch(file, rounds, [edges_of[one], edges_of[two]], own)
-    for (a, b), (c, d) in itertools.product(edges_of[one], edges_of[two]):
-        close = [p for p, q, r in ((a, c, d), (b, c, d), (c, a, b), (d, a, b)) if distance2(p, q, r) <= near]
-        bare = [p for p in close if all(distance2(p, vec(s[0]), vec(s[-1])) > covered for s in own)]
-        turns = [cross(sub(q, p), sub(r, p)) for p, q, r in ((a, b, c), (a, b, d), (c, d, a), (c, d, b))]
-        crosses = not own and not close and turns[0] * turns[1] < 0 and turns[2] * turns[3] < 0
-        far = any(dot(sub(p, q), sub(p, q)) > covered for p in bare for q in bare)
-        if far or crosses or (bare and file["corners_carry"]):
-            return True
-    return False
+def touch(file, one, two, own, edges):
+    """Whether edges of two bodies come close where there is no contact: at a corner, or where a circle is nearest."""
+    r, d = one["radius"] + two["radius"], file["distance"]
+    sides = [(Fraction(one["radius"]) / (r or 1), *edges), (Fraction(two["radius"]) / (r or 1), *edges[::-1])]
+    ends = [(p, foot(p, *other), share) for share, edge, other in sides for p in edge if share or not r]
+    points = [plus(p, sub(q, p), share) for p, q, share in ends if apart2(p, q) <= (r + d) ** 2]
+    near = (2 * d + file["shortest"]) ** 2 + 4 * r * d
+    bare = [p for p in points if all(apart2(p, foot(p, c[0], c[-1])) > near for c in own)]
+    return any(file["corners_carry"] or p not in sum(edges, ()) or apart2(p, q) > near for p in bare for q in bare)
 
 def form(file, frame):
-    """Yields what makes a frame no structure: bodies that are not there, and numbers of a wrong sign."""
-    bodies, placed = file["bodies"], frame["placed"]
-    blocks = [k for k, body in enumerate(bodies) if not body["ground"]]
-    if file["drystone_certificate"] != 1 or min(file["distance"], file["shortest"]) < 0:
-        yield "the version or a distance is wrong"
-    if any(body["circle"]["radius"] <= 0 if "circle" in body else sum(cross(p, q) for p, q in edges(body)) == 0 for body in bodies):
-        yield "an outline has no area"
-    if any(body["weight"] < 0 for body in bodies) or not set(placed) <= set(blocks) or len(set(placed)) != len(placed):
-        yield "a weight is negative, or a placed body is no block"
-    for k, c in enumerate(frame["contacts"]):
-        on, other = c["bodies"]
-        fine = on in placed and on != other and (other in placed or bodies[other]["ground"]) and other >= 0
-        if not fine or c["friction"] < 0 or (len(c["points"]), "normal" in c) not in ((1, True), (2, False)):
-            yield f"contact {k} is none"
-    if any(g["body"] not in placed or any(v is not None and v < 0 for v in g["limits"]) for g in frame.get("grips", [])):
-        yield "a grip is none"
-
-def changed(frame, change):
-    """The frame with one change, made in double arithmetic."""
-    frame, ((kind, value),) = json.loads(json.dumps({**frame, "forces": None, "motion": None, "still": []})), change.items()
-    if kind in ("load_factor", "gravity"):
-        frame[kind] = value
-    elif kind == "limit":
-        frame["grips"][value[0]]["limits"][value[1]] = value[2]
-    elif kind == "force":
-        frame["force"] = value[:2]
-        if value[2] is not None:
-            frame["grips"][value[2]]["limits"] = [0, 0, 0]
-    for c in frame["contacts"]:
-        ends = c.get("ends") or c["points"]
-        if kind == "friction":
-            c["friction"] = value
-        elif kind == "kernel" and len(ends) == 2:
-            step = [(q - p) * (0.5 * value) for p, q in zip(*ends)]
-            c["points"] = [[p + d for p, d in zip(ends[0], step)], [p - d for p, d in zip(ends[1], step)]]
-            if value >= 1 or c["points"][0] == c["points"][1]:
-                c["points"], c["normal"] = c["points"][:1], [ends[1][1] - ends[0][1], ends[0][0] - ends[1][0]]
-    return frame
-
-WORDS = {"stable": ("stands", stands, "forces"), "unstable": ("falls", falls, "motion")}
+    """Returns what is not valid in a frame: bodies that are not there, and numbers of a wrong sign."""
+    bodies, placed, contacts, grips = file["bodies"], frame["placed"], frame["contacts"], frame.get("grips", [])
+    blocks = {k for k, body in enumerate(bodies) if not body["ground"]}
+    joins = lambda on, other: on in placed and on != other and (other in placed or bodies[other]["ground"])
+    moved = [m["body"] for m in frame["motion"] or []] + [body for own, _ in frame["still"] for body in own]
+    numbers = [file["distance"], file["shortest"], *(body["weight"] for body in bodies), frame.get("friction", 0)]
+    numbers += [c["friction"] for c in contacts] + [limit or 0 for limit in limits_of(frame)]
+    rules = {
+        "the version": file["drystone_certificate"] == 1,
+        "a body": all(body["is_fine"] for body in bodies),
+        "a number": min(numbers) >= 0 and 0 <= frame.get("kernel", 0) <= 1,
+        "a placed body": {*moved} <= {*placed} <= blocks and len(placed) == len({*placed}),
+        "a contact": all(len(c["points"]) == 2 - ("normal" in c) and joins(*c["bodies"]) for c in contacts),
+        "a grip": len(limits_of(frame)) == 3 * len(grips) and all(g["body"] in placed for g in grips),
+    }
+    return [f"{name} is not valid" for name, is_fine in rules.items() if not is_fine]
 
 def main(path):
+    checks = {"stable": ("stands", "inside", stands, "forces"), "unstable": ("falls", "beyond", falls, "motion")}
     with open(path, encoding="utf-8") as text:
-        file = json.load(text)
-    bodies, farthest, edges_of, exact = file["bodies"], [F(0)], [edges(body) for body in file["bodies"]], True
+        file = json.load(text, parse_float=lambda digits: Fraction(float(digits)), parse_constant=Fraction)
+    farthest, is_exact, frames = [0.0], True, {frame["frame"]: frame for frame in file["frames"]}
+    file["bodies"] = [prepare(body) for body in file["bodies"]]
     for entry in file["frames"] + file.get("limits", []):
-        frame, faults, name = entry, [], f"frame {entry['frame']}"
-        if "change" in entry:
-            base = next(frame for frame in file["frames"] if frame["frame"] == entry["frame"])
-            frame = {**changed(base, entry["change"]), **entry}
-            name += f", just {'inside' if entry['verdict'] == 'stable' else 'beyond'} {entry['of']}"
-            angle = turned(base["gravity"], frame["gravity"]) if "gravity" in entry["change"] else None
-            name += f" ({json.dumps(entry['change'])}{'' if angle is None else f', gravity turned by {angle:.9f}°'})"
-            if not 0 <= entry["change"].get("kernel", 0) <= 1:
-                faults = ["a kernel is not between 0 and 1"]
-        elif not file["listed"]:
-            faults = list(places(file, frame, edges_of, farthest))
-        faults += form(file, frame)
-        word, check, proof = WORDS.get(frame["verdict"], ("undecided", None, ""))
-        faults += check(bodies, frame) if frame.get(proof) is not None and not faults else ["no proof"] * (not faults)
-        exact = exact and not faults
-        print(f"{name}: {word}, " + ("not proved: " + "; ".join(faults) if faults else "exactly"))
-    print("contacts as the scene lists them" if file["listed"] else f"farthest contact point: {float(farthest[0]) ** 0.5:.1e} m")
-    return exact
+        word, side, check, proof = checks.get(entry["verdict"], ("undecided", "at", None, None))
+        change, no_proof = entry.get("change", {}), {"forces": None, "motion": None, "still": []}
+        frame = {**frames[entry["frame"]], **no_proof, **change, **entry}
+        gaps = missing(file, frame) if word == "falls" else []
+        faults = form(file, frame) or ([] if file["listed"] else [*places(file, frame, farthest), *gaps])
+        faults = faults or (list(check(file["bodies"], frame)) if frame.get(proof) else ["no proof"])
+        is_exact &= not faults
+        name = f", just {side} {entry['of']} ({json.dumps(change, default=float)})" if change else ""
+        print(f"frame {entry['frame']}{name}: {word}, {'not proved: ' + '; '.join(faults) if faults else 'exactly'}")
+    print("contacts as the scene lists them" if file["listed"] else f"farthest contact point: {max(farthest):.1e} m")
+    return is_exact
 
-if __name__ == "__main__":
-    sys.exit(0 if all([main(path) for path in sys.argv[1:]]) else 1)
+sys.exit(not all([main(path) for path in sys.argv[1:]]))

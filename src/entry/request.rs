@@ -283,7 +283,7 @@ impl CheckArgs {
         }
         #[cfg(feature = "certificate")]
         if self.level.accuracy == Accuracy::Proved {
-            Certificate::new(&analysis, String::new()).note_in(&mut analysis);
+            Certificate::new(&mut analysis, String::new());
         }
         analysis
     }

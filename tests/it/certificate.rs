@@ -45,7 +45,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 
 /// Writes a certificate and reads it back; both must be equal to the last bit.
 fn certificate(scene: &Scene, options: &Options) -> Certificate {
-    let certificate = Certificate::new(&Analysis::with(scene, options), String::new());
+    let certificate = Certificate::new(&mut Analysis::with(scene, options), String::new());
     let text = certificate.to_json();
     let read = Certificate::from_json(text.as_bytes()).expect("a certificate");
     assert_eq!(read, certificate);

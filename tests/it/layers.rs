@@ -71,7 +71,7 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
             "products/snapshot/fact/",
         ],
     ),
-    ("dashu_ratio", &["mechanics/certificate/fraction.rs"]),
+    ("dashu_ratio", &["mechanics/certificate/number.rs"]),
     ("hmac_sha256", &["entry/cli/verify.rs"]),
     (
         "serde_json",

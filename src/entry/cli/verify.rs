@@ -46,8 +46,8 @@ impl Verify {
         if let Some(scene) = &self.scene {
             let own = source::read(std::slice::from_ref(scene), None, &AnalysisArgs::default());
             let own = own.map_err(|mut errors| errors.swap_remove(0))?;
-            let analysis = Analysis::new(&own[0].scene);
-            let differs = certificate.differs_from(&Certificate::new(&analysis, hash(&bytes_of(scene)?)));
+            let mut analysis = Analysis::new(&own[0].scene);
+            let differs = certificate.differs_from(&Certificate::new(&mut analysis, hash(&bytes_of(scene)?)));
             if let Some(what) = differs {
                 let scene = scene.display();
                 return Err(CliError::CommandLine(format!("{shown} is not about {scene}: {what}")));
@@ -106,9 +106,6 @@ pub(crate) fn write(analysis: &mut Analysis, scene: &Path, output: &Path) -> Res
     destination::refuse_overwrites(&[output.to_owned()], &[scene])?;
     let hash = if scene == Path::new("-") { String::new() } else { hash(&bytes_of(scene)?) };
     let certificate = Certificate::new(analysis, hash);
-    if analysis.frames.iter().all(|frame| frame.exact.is_none()) {
-        certificate.note_in(analysis);
-    }
     destination::write(&[(output.to_owned(), certificate.to_json().into_bytes())], Existing::Replace)
 }
 

@@ -7,9 +7,10 @@
 
 use std::collections::BTreeSet;
 
-use super::fraction::{Rational, Vector, Wrench, eliminate, exact, float, magnitude, solve, zero};
-use super::links::{Link, centroid, grip_wrenches, length_of_normal};
-use super::{Certificate, Change, ContactForm, FrameForm, LimitForm};
+use super::fraction::{Number, Rational, Vector, Wrench, eliminate, solve, zero};
+use super::links::{Link, centroid, grip_wrenches, length_of_normal, sides};
+use super::number::Interval;
+use super::{Certificate, ContactForm, FrameForm, LimitForm, Pair};
 
 /// The result of checking a certificate.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,7 +71,7 @@ impl Certificate {
             faults.extend(self.proof_faults(frame));
             FrameCheck { frame: frame.frame, verdict: frame.verdict.clone(), faults }
         });
-        let frames = frames.collect();
+        let frames: Vec<FrameCheck> = frames.collect();
         let limits = self.limits.iter().map(|limit| LimitCheck {
             frame: limit.frame,
             of: limit.of.clone(),
@@ -84,13 +85,11 @@ impl Certificate {
     /// Returns by which angle, in degrees, a change rotates gravity. Sines are no fractions, so this is rounded.
     fn turned(&self, limit: &LimitForm) -> Option<f64> {
         let [x, y] = self.frames.iter().find(|frame| frame.frame == limit.frame)?.gravity;
-        match limit.change {
-            Change::Gravity([a, b]) => Some(libm::atan2(x * b - y * a, x * a + y * b).to_degrees()),
-            _ => None,
-        }
+        let [a, b] = limit.change.gravity?;
+        Some(libm::atan2(x * b - y * a, x * a + y * b).to_degrees())
     }
 
-    /// Checks the proof of a changed frame.
+    /// Checks the places of the contacts of a changed frame, and its proof.
     pub(super) fn limit_faults(&self, limit: &LimitForm) -> Vec<String> {
         let Some(frame) = self.frames.iter().find(|frame| frame.frame == limit.frame) else {
             return vec![format!("there is no frame {}", limit.frame)];
@@ -104,11 +103,12 @@ impl Certificate {
         };
         let mut faults =
             Certificate { frames: vec![changed.clone()], limits: Vec::new(), ..self.clone() }.form_errors();
-        if matches!(limit.change, Change::Kernel(kernel) if !(0.0..=1.0).contains(&kernel)) {
-            faults.push("a kernel is not between 0 and 1".to_owned());
+        if limit.change.grip_limits.as_ref().is_some_and(|limits| limits.len() != frame.grips.len()) {
+            faults.push("the limits are not those of the grips".to_owned());
         }
         if faults.is_empty() {
-            faults = self.proof_faults(&changed);
+            faults = self.place_faults(&changed, &mut 0.0);
+            faults.extend(self.proof_faults(&changed));
         }
         faults
     }
@@ -116,8 +116,10 @@ impl Certificate {
     /// Checks the forces or the motion of a frame, as its verdict needs.
     pub(super) fn proof_faults(&self, frame: &FrameForm) -> Vec<String> {
         match (frame.verdict.as_str(), &frame.forces, &frame.motion) {
-            ("stable", Some(_), _) => self.force_faults(frame),
-            ("unstable", _, Some(_)) => self.motion_faults(frame),
+            ("stable", Some(_), _) if self.force_faults::<Interval>(frame).is_empty() => Vec::new(),
+            ("stable", Some(_), _) => self.force_faults::<Rational>(frame),
+            ("unstable", _, Some(_)) if self.motion_faults::<Interval>(frame).is_empty() => Vec::new(),
+            ("unstable", _, Some(_)) => self.motion_faults::<Rational>(frame),
             ("stable", None, _) => vec!["the certificate contains no forces".to_owned()],
             ("unstable", _, None) => vec!["the certificate contains no motion".to_owned()],
             _ => vec!["the certificate states no verdict".to_owned()],
@@ -143,16 +145,23 @@ impl Certificate {
             need(body.circle.is_none_or(|circle| circle.radius > 0.0), &|| {
                 format!("the radius of {} is not more than 0", body.id)
             });
-            need(centroid(body).is_some(), &|| format!("the outline of {} has no area", body.id));
+            let is_forward = |ring: &[Pair]| {
+                sides::<Rational>(ring).map(|[p, q]| p.cross(&q)).fold(zero(), |sum, v| sum + v) > zero()
+            };
+            let fine = centroid::<Rational>(body).is_some()
+                && (body.circle.is_some() || is_forward(&body.outline))
+                && !body.holes.iter().any(|hole| is_forward(hole));
+            need(fine, &|| format!("the outline of {} has no area, or a ring runs the wrong way", body.id));
             need(body.weight >= 0.0, &|| format!("the weight of {} is negative", body.id));
         }
         let is_block = |index: usize| self.bodies.get(index).is_some_and(|body| !body.ground);
         for frame in &self.frames {
             let n = frame.frame;
             let is_placed = |index: usize| is_block(index) && frame.placed.contains(&index);
-            need(frame.placed.iter().all(|index| is_block(*index)), &|| {
-                format!("frame {n}: a placed body is no block")
-            });
+            let different: BTreeSet<&usize> = frame.placed.iter().collect();
+            let fine = different.len() == frame.placed.len() && frame.placed.iter().all(|index| is_block(*index));
+            need(fine, &|| format!("frame {n}: a placed body is no block, or is placed twice"));
+            need((0.0..=1.0).contains(&frame.kernel), &|| format!("frame {n}: the kernel is not between 0 and 1"));
             for (k, contact) in frame.contacts.iter().enumerate() {
                 let [on, from] = contact.bodies;
                 let is_ground = self.bodies.get(from).is_some_and(|body| body.ground);
@@ -198,14 +207,13 @@ impl Certificate {
     }
 
     /// Checks that the forces of a frame, corrected in the given order, balance every body and keep every limit.
-    pub(super) fn force_faults(&self, frame: &FrameForm) -> Vec<String> {
+    fn force_faults<N: Number>(&self, frame: &FrameForm) -> Vec<String> {
         let Some(forces) = &frame.forces else { return Vec::new() };
         let mut faults = Vec::new();
         let links = self.links(frame);
-        let mut amounts: Vec<Rational> =
-            forces.contacts.iter().chain(&forces.grips).flatten().map(|v| exact(*v)).collect();
+        let mut amounts: Vec<N> = forces.contacts.iter().chain(&forces.grips).flatten().map(|v| N::exact(*v)).collect();
         // The residual of each body: its loads and the forces of its contacts and grips.
-        let mut residual: Vec<Wrench> = (0..self.bodies.len()).map(|body| self.load(body, frame)).collect();
+        let mut residual: Vec<Wrench<N>> = (0..self.bodies.len()).map(|body| self.load(body, frame)).collect();
         for (component, amount) in amounts.iter().enumerate() {
             let link = &links[component / 3];
             let wrench = link.wrenches[component % 3].times(amount);
@@ -232,7 +240,7 @@ impl Certificate {
                 continue;
             };
             for (component, change) in components.iter().zip(&changes) {
-                amounts[*component] = &amounts[*component] + change;
+                amounts[*component] = amounts[*component].plus(change);
             }
             let others = components.iter().flat_map(|c| links[c / 3].bodies()).filter(|body| !bodies.contains(body));
             let others: BTreeSet<usize> = others.collect();
@@ -253,33 +261,34 @@ impl Certificate {
             bodies.iter().for_each(|body| residual[*body] = Wrench::zero());
         }
         for index in &frame.placed {
-            let worst = residual[*index].largest();
-            if worst != zero() {
-                faults.push(format!("{} does not balance by {:.1e} N", self.bodies[*index].id, float(&worst)));
+            let worst = residual[*index].entries().map(|v| v.float().abs()).into_iter().fold(0.0, f64::max);
+            if !residual[*index].entries().iter().all(|v| v.is_zero()) {
+                faults.push(format!("{} does not balance by {worst:.1e} N", self.bodies[*index].id));
             }
         }
         // Check the inequalities of contacts and grips.
         for (k, contact) in frame.contacts.iter().enumerate() {
             let [n1, n2, t] = [0, 1, 2].map(|i| &amounts[3 * k + i]);
-            let length = length_of_normal(contact);
-            let mut miss = |by: Rational, what: &str| {
-                if by > zero() {
+            let mut miss = |by: N, what: &str| {
+                if !by.is_at_most_zero() {
                     let names = self.names(contact);
-                    faults.push(format!("{names}: {what} by {:.1e} N", float(&by) * length));
+                    faults.push(format!("{names}: {what} by {:.1e} N", by.float() * length_of_normal(contact)));
                 }
             };
-            miss(-n1.clone(), "the first normal force pulls");
-            miss(-n2.clone(), "the second normal force pulls");
+            miss(n1.negative(), "the first normal force pulls");
+            miss(n2.negative(), "the second normal force pulls");
             if contact.points.len() == 1 {
                 miss(n2.clone(), "a second normal force without a point presses");
             }
-            miss(magnitude(t) - exact(contact.friction) * (n1 + n2), "the friction exceeds its limit");
+            let limit = N::exact(contact.friction).times(&n1.plus(n2));
+            miss(t.magnitude().minus(&limit), "the friction exceeds its limit");
         }
         for (k, grip) in frame.grips.iter().enumerate() {
             for (component, limit) in grip.limits.iter().enumerate().filter_map(|(i, limit)| Some((i, (*limit)?))) {
-                let by = magnitude(&amounts[3 * (frame.contacts.len() + k) + component]) - exact(limit);
-                if by > zero() {
-                    faults.push(format!("{} exceeds its limit by {:.1e}", grip.robot, float(&by)));
+                let amount = amounts[3 * (frame.contacts.len() + k) + component].magnitude();
+                let by = amount.minus(&N::exact(limit));
+                if !by.is_at_most_zero() {
+                    faults.push(format!("{} exceeds its limit by {:.1e}", grip.robot, by.float()));
                 }
             }
         }
@@ -287,13 +296,16 @@ impl Certificate {
     }
 
     /// Checks that no force of a contact or of a grip can resist the motion of a frame, and that its loads do work.
-    pub(super) fn motion_faults(&self, frame: &FrameForm) -> Vec<String> {
+    fn motion_faults<N: Number>(&self, frame: &FrameForm) -> Vec<String> {
         let mut faults = Vec::new();
+        if !N::DECIDES && !frame.still.is_empty() {
+            return vec!["only equations of rational numbers are solved".to_owned()];
+        }
         // The motion of each body: the velocity of the origin, and the angular velocity.
-        let mut motions = vec![Wrench::zero(); self.bodies.len()];
+        let mut motions = vec![Wrench::<N>::zero(); self.bodies.len()];
         for motion in frame.motion.iter().flatten() {
-            let (at, velocity, spin) = (Vector::new(motion.at), Vector::new(motion.velocity), exact(motion.spin));
-            let at_origin = Vector { x: velocity.x + &spin * at.y, y: velocity.y - &spin * at.x };
+            let (at, velocity, spin) = (Vector::new(motion.at), Vector::new(motion.velocity), N::exact(motion.spin));
+            let at_origin = velocity.minus(&at.turned().times(&spin));
             motions[motion.body] = Wrench { force: at_origin, moment: spin };
         }
         let links = self.links(frame);
@@ -301,10 +313,10 @@ impl Certificate {
             // Find the changes of the motions after which no component has power.
             let rows = components.iter().map(|component| {
                 let own = |body: &usize| links[component / 3].on_body(component % 3, *body);
-                let mut row: Vec<Rational> =
+                let mut row: Vec<N> =
                     bodies.iter().flat_map(|body| own(body).unwrap_or_else(Wrench::zero).into_entries()).collect();
                 let powers = links[component / 3].bodies().into_iter().filter_map(|body| Some((body, own(&body)?)));
-                row.push(powers.fold(zero(), |sum, (body, wrench)| sum - wrench.power(&motions[body])));
+                row.push(powers.fold(N::zero(), |sum, (body, wrench)| sum.minus(&wrench.power(&motions[body]))));
                 row
             });
             let changes = eliminate(rows.collect(), 3 * bodies.len()).unwrap_or_default();
@@ -312,44 +324,40 @@ impl Certificate {
                 motions[*body] = motions[*body].plus(&Wrench::of_entries(change));
             }
         }
-        let mut power = zero();
-        for index in &frame.placed {
-            power += self.load(*index, frame).power(&motions[*index]);
-        }
+        let powers = frame.placed.iter().map(|index| self.load(*index, frame).power(&motions[*index]));
+        let mut power = powers.fold(N::zero(), |sum, power| sum.plus(&power));
         for (contact, link) in frame.contacts.iter().zip(&links) {
             let relative = match link.from {
                 Some(from) => motions[link.on].minus(&motions[from]),
                 None => motions[link.on].clone(),
             };
-            for at in &contact.points {
-                let at = Vector::new(*at);
-                let opening = Wrench::of_force(&link.normal, &at).power(&relative);
-                let sliding = Wrench::of_force(&link.normal.turned(), &at).power(&relative);
-                let by = exact(contact.friction) * magnitude(&sliding) - opening;
-                if by > zero() {
-                    let by = float(&by) / length_of_normal(contact);
+            let [first, second, sliding] = link.wrenches.each_ref().map(|wrench| wrench.power(&relative));
+            for opening in [first, second].into_iter().take(contact.points.len()) {
+                let by = N::exact(contact.friction).times(&sliding.magnitude()).minus(&opening);
+                if !by.is_at_most_zero() {
+                    let by = by.float() / length_of_normal(contact);
                     faults.push(format!("{}: a contact force can resist, by {by:.1e}", self.names(contact)));
                 }
             }
         }
         for grip in &frame.grips {
             for (wrench, limit) in grip_wrenches(grip).iter().zip(grip.limits) {
-                let speed = magnitude(&wrench.power(&motions[grip.body]));
+                let speed = wrench.power(&motions[grip.body]).magnitude();
                 match limit {
-                    Some(limit) => power -= speed * exact(limit),
-                    None if speed > zero() => {
+                    Some(limit) => power = power.minus(&speed.times(&N::exact(limit))),
+                    None if !speed.is_at_most_zero() => {
                         faults.push(format!(
                             "{} holds without a limit, but moves by {:.1e}",
                             grip.robot,
-                            float(&speed)
+                            speed.float()
                         ));
                     }
                     None => {}
                 }
             }
         }
-        if power <= zero() {
-            faults.push(format!("the loads do no work along the motion: {:.1e}", float(&power)));
+        if !power.is_positive() {
+            faults.push(format!("the loads do no work along the motion: {:.1e}", power.float()));
         }
         faults
     }
@@ -362,20 +370,25 @@ impl Certificate {
 }
 
 /// Returns by how much the components are changed so that the bodies balance exactly; `None` if no changes do.
-fn correction(links: &[Link], residual: &[Wrench], bodies: &[usize], components: &[usize]) -> Option<Vec<Rational>> {
+fn correction<N: Number>(
+    links: &[Link<N>],
+    residual: &[Wrench<N>],
+    bodies: &[usize],
+    components: &[usize],
+) -> Option<Vec<N>> {
     let column =
         |component: &usize, body: usize| links[component / 3].on_body(component % 3, body).unwrap_or_else(Wrench::zero);
     if let ([body], [_, _, _]) = (bodies, components) {
-        let columns: Vec<Wrench> = components.iter().map(|component| column(component, *body)).collect();
+        let columns: Vec<Wrench<N>> = components.iter().map(|component| column(component, *body)).collect();
         if let Some(changes) = solve(&columns, &residual[*body].negative()) {
             return Some(changes.to_vec());
         }
     }
     let rows = bodies.iter().flat_map(|body| {
-        let columns: Vec<Wrench> = components.iter().map(|component| column(component, *body)).collect();
+        let columns: Vec<Wrench<N>> = components.iter().map(|component| column(component, *body)).collect();
         [0, 1, 2].map(|i| {
             let sides = columns.iter().map(|column| column.entries()[i].clone());
-            sides.chain([-residual[*body].entries()[i].clone()]).collect::<Vec<_>>()
+            sides.chain([residual[*body].entries()[i].negative()]).collect::<Vec<_>>()
         })
     });
     eliminate(rows.collect(), components.len())

@@ -34,14 +34,18 @@ impl Limits<'_> {
             let mut add = |name: &str, interval: &Option<Interval>, change: &dyn Fn(f64) -> Changed| {
                 self.add_ends(&mut proofs, name, interval.as_ref(), 1.0, change);
             };
-            add("friction", &intervals.friction, &|mu| (Change::Friction(mu), given.clone().with_friction(mu)));
+            add("friction", &intervals.friction, &|mu| {
+                (Change { friction: Some(mu), ..Change::default() }, given.clone().with_friction(mu))
+            });
             add("tilt", &intervals.tilt, &|degrees| self.tilted(degrees));
             add("horizontal_load", &intervals.horizontal_load, &|share| {
                 self.with_gravity(given.pull + quarter_turn(given.pull) * share)
             });
-            add("kernel", &intervals.kernel, &|kernel| (Change::Kernel(kernel), given.clone().with_kernel(kernel)));
+            add("kernel", &intervals.kernel, &|kernel| {
+                (Change { kernel: Some(kernel), ..Change::default() }, given.clone().with_kernel(kernel))
+            });
             add("load_factor", &intervals.load_factor, &|factor| {
-                (Change::LoadFactor(factor), given.clone().with_load_factor(factor))
+                (Change { load_factor: Some(factor), ..Change::default() }, given.clone().with_load_factor(factor))
             });
             for (hold, robot) in intervals.robots.iter().enumerate() {
                 let Some(grip) = given.grips.iter().position(|grip| grip.hold == hold) else { continue };
@@ -52,7 +56,10 @@ impl Limits<'_> {
                     self.add_ends(&mut proofs, &format!("{name} {word}"), Some(interval), size, &|value| {
                         let mut limits = given.grips[grip].limits;
                         *[&mut limits.fx, &mut limits.fy, &mut limits.torque][component] = value;
-                        (Change::Limit(grip, component, value), given.clone().with_limits(grip, limits))
+                        let mut all: Vec<[Option<f64>; 3]> = self.bare.grips.iter().map(|grip| grip.limits).collect();
+                        all[grip][component] = Some(value);
+                        let change = Change { grip_limits: Some(all), ..Change::default() };
+                        (change, given.clone().with_limits(grip, limits))
                     });
                 }
             }
@@ -110,11 +117,14 @@ impl Limits<'_> {
             let mut changed = self.assembly.clone();
             let own = &mut changed.bodies[body];
             own.load = own.load.plus(load_about(own.centroid, at, force, torque));
+            let mut all: Vec<[Option<f64>; 3]> = self.bare.grips.iter().map(|grip| grip.limits).collect();
             if let Some(grip) = without {
+                all[grip] = [Some(0.0); 3];
                 let limits = &mut changed.grips[grip].limits;
                 (limits.fx, limits.fy, limits.torque) = (0.0, 0.0, 0.0);
             }
-            (Change::Force(self.bare.placed[body], load, without), changed)
+            let force = Some((self.bare.placed[body], load));
+            (Change { force, grip_limits: without.is_some().then_some(all), ..Change::default() }, changed)
         };
         for (number, (corner, torque)) in corners.iter().zip(&torques).enumerate() {
             let inside =
@@ -139,7 +149,7 @@ impl Limits<'_> {
     }
 
     fn with_gravity(&self, pull: Vector) -> Changed {
-        (Change::Gravity([pull.x, pull.y]), self.assembly.clone().with_gravity(pull))
+        (Change { gravity: Some([pull.x, pull.y]), ..Change::default() }, self.assembly.clone().with_gravity(pull))
     }
 
     /// Returns the proof nearest to an end that is exact, or else the farthest one that was tried.
@@ -154,11 +164,10 @@ impl Limits<'_> {
         for share in DISTANCES {
             let (change, assembly) = change(share);
             let bare = FrameForm { verdict: verdict.word().to_owned(), ..change.of(self.bare) };
-            let proved = match verdict {
+            let (proved, faults) = match verdict {
                 Verdict::Stable => self.certificate.standing(&bare, &assembly, None),
                 _ => self.certificate.falling(&bare, &assembly, mechanism),
             };
-            let is_exact = self.certificate.proof_faults(&proved).is_empty();
             last = Some(LimitForm {
                 frame: self.bare.frame,
                 of: of.to_owned(),
@@ -168,7 +177,7 @@ impl Limits<'_> {
                 motion: proved.motion,
                 still: proved.still,
             });
-            if is_exact {
+            if faults.is_empty() {
                 break;
             }
         }

@@ -2,15 +2,15 @@
 //!
 //! The forces of the analysis are used if a tree of contacts with room for corrections leads from every body to the
 //! ground, found as Prim's algorithm finds a spanning tree. Forces of least sum often lie on the edge of many contacts,
-//! where an exact correction would leave the contact. Then the forces with the largest slack are computed: each normal
-//! force is at least s, and s is the largest possible. With N = s + N', this is the largest load factor along the loads −s
-//! on every contact point, one linear program for each component.
+//! where an exact correction would leave the contact. Then any forces that an interior-point method finds are tried, and at
+//! last the forces with the largest slack: each normal force is at least s, and s is the largest possible. With N = s + N',
+//! this is the largest load factor along the loads −s on every contact point, one linear program for each component.
 
 use std::cell::OnceCell;
 
 use super::fall::{NEGLIGIBLE, motion_of_all, opening_motion, with_motion};
 use super::limits::Limits;
-use super::stand::{order, slack_forces};
+use super::stand::{inner_forces, order, slack_forces};
 use super::{BodyForm, Certificate, CircleForm, ContactForm, ForcesForm, FrameForm, GripForm, LoadForm, Pair};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict, mechanism_of};
@@ -23,10 +23,13 @@ use crate::mechanics::statics::interface::{ContactKind, Interfaces};
 /// If the forces of the analysis have this slack at least, as a share of the heaviest load, they are corrected.
 const ROOM: f64 = 1e-6;
 
+/// A frame with a proof, and what it misses.
+type Proved = (FrameForm, Vec<String>);
+
 impl Certificate {
-    /// Writes the certificate of an analysis. `scene_sha256` is the hash of the scene file in hexadecimal digits, or
-    /// empty.
-    pub fn new(analysis: &Analysis, scene_sha256: String) -> Certificate {
+    /// Writes the certificate of an analysis, and notes in the analysis which verdicts it proves exactly and what the
+    /// others miss. `scene_sha256` is the hash of the scene file in hexadecimal digits, or empty.
+    pub fn new(analysis: &mut Analysis, scene_sha256: String) -> Certificate {
         let scene = &*analysis.scene;
         let interfaces = Interfaces::new(scene);
         let mut certificate = Certificate {
@@ -40,56 +43,48 @@ impl Certificate {
             frames: Vec::new(),
             limits: Vec::new(),
         };
-        for (number, found) in analysis.frames.iter().enumerate() {
+        for (number, found) in analysis.frames.iter_mut().enumerate() {
             let frame = &scene.frames[number];
             let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(scene, frame) };
             let (assembly, _) = assemble(&context);
             let bare = frame_form(scene, &assembly, number + 1, found.verdict);
-            let proved = match found.verdict {
+            let (proved, faults) = match found.verdict {
                 Verdict::Stable => certificate.standing(&bare, &assembly, Some(found)),
                 Verdict::Unstable => certificate.falling(&bare, &assembly, &found.mechanism),
-                Verdict::Undecided => bare.clone(),
+                Verdict::Undecided => (bare.clone(), Vec::new()),
             };
             certificate.frames.push(proved);
             certificate
                 .limits
                 .extend(Limits { certificate: &certificate, bare: &bare, assembly: &assembly, found }.all());
+            if found.verdict != Verdict::Undecided && found.exact.is_none() {
+                found.exact = Some(faults.is_empty());
+                let notice = |fault| format!("the verdict is not proved in exact arithmetic: {fault}");
+                found.notices.extend(faults.first().map(notice));
+            }
         }
         certificate
     }
 
-    /// Notes in an analysis which verdicts this certificate proves exactly, and what the others miss.
-    pub fn note_in(&self, analysis: &mut Analysis) {
-        for (form, found) in self.frames.iter().zip(&mut analysis.frames) {
-            if found.verdict == Verdict::Undecided {
-                continue;
-            }
-            let faults = self.proof_faults(form);
-            found.exact = Some(faults.is_empty());
-            if let Some(fault) = faults.first() {
-                found.notices.push(format!("the verdict is not proved in exact arithmetic: {fault}"));
-            }
-        }
-    }
-
     /// Adds forces to a frame that stands: those of the analysis, or those with the largest slack, whichever leave
     /// fewer faults. If no order of single bodies corrects them, all bodies are corrected at once.
-    pub(super) fn standing(&self, bare: &FrameForm, assembly: &Assembly, found: Option<&FrameAnalysis>) -> FrameForm {
+    pub(super) fn standing(&self, bare: &FrameForm, assembly: &Assembly, found: Option<&FrameAnalysis>) -> Proved {
         let (listed, slack) = (found.map(|found| listed_forces(assembly, found)), OnceCell::new());
         let slack = || slack.get_or_init(|| slack_forces(assembly)).as_ref();
         // The forces of the analysis need no further program. Often they leave room for the correction of each body.
         let room = ROOM * assembly.heaviest_load();
         let with_room = || self.with_forces(bare, assembly, listed.as_ref()?, Some(room));
+        let with_inner = || self.with_forces(bare, assembly, &found.and_then(|_| inner_forces(assembly))?, Some(room));
         let with_slack = || self.with_forces(bare, assembly, slack()?, Some(f64::NEG_INFINITY));
         let with_listed = || self.with_forces(bare, assembly, listed.as_ref()?, Some(f64::NEG_INFINITY));
         let slack_at_once = || self.with_forces(bare, assembly, slack()?, None);
         let listed_at_once = || self.with_forces(bare, assembly, listed.as_ref()?, None);
-        self.best(bare, &[&with_room, &with_slack, &with_listed, &slack_at_once, &listed_at_once])
+        self.best(bare, &[&with_room, &with_inner, &with_slack, &with_listed, &slack_at_once, &listed_at_once])
     }
 
     /// Adds a motion to a frame that falls: the given one, or else one that opens more contacts and keeps those exactly
     /// closed that cannot open.
-    pub(super) fn falling(&self, bare: &FrameForm, assembly: &Assembly, mechanism: &[Motion]) -> FrameForm {
+    pub(super) fn falling(&self, bare: &FrameForm, assembly: &Assembly, mechanism: &[Motion]) -> Proved {
         let (given, opening, fresh) = (motion_of_all(assembly, mechanism), OnceCell::new(), OnceCell::new());
         let opening = || opening.get_or_init(|| opening_motion(assembly, mechanism)).as_ref();
         let fresh = || fresh.get_or_init(|| mechanism_of(assembly));
@@ -103,19 +98,19 @@ impl Certificate {
     }
 
     /// Returns the first candidate that proves its verdict exactly, or the one with the fewest faults.
-    fn best(&self, bare: &FrameForm, candidates: &[&dyn Fn() -> Option<FrameForm>]) -> FrameForm {
-        let mut best: Option<(usize, FrameForm)> = None;
-        for candidate in candidates {
-            let Some(form) = candidate() else { continue };
-            let faults = self.proof_faults(&form).len();
-            if best.as_ref().is_none_or(|(fewest, _)| faults < *fewest) {
-                best = Some((faults, form));
+    fn best(&self, bare: &FrameForm, candidates: &[&dyn Fn() -> Option<FrameForm>]) -> Proved {
+        let mut best: Option<Proved> = None;
+        for form in candidates.iter().filter_map(|candidate| candidate()) {
+            let faults = self.proof_faults(&form);
+            let is_exact = faults.is_empty();
+            if best.as_ref().is_none_or(|(_, fewest)| faults.len() < fewest.len()) {
+                best = Some((form, faults));
             }
-            if faults == 0 {
+            if is_exact {
                 break;
             }
         }
-        best.map_or_else(|| bare.clone(), |(_, form)| form)
+        best.unwrap_or_else(|| (bare.clone(), self.proof_faults(bare)))
     }
 
     /// Adds forces, in newtons, and the order of their correction. `None` if the components by which single bodies are
@@ -171,6 +166,7 @@ fn frame_form(scene: &Scene, assembly: &Assembly, number: usize, verdict: Verdic
         verdict: verdict.word().to_owned(),
         gravity: [assembly.pull.x, assembly.pull.y],
         load_factor: 1.0,
+        kernel: scene.kernel,
         force: None,
         placed: (0..assembly.bodies.len()).map(body_of).collect(),
         contacts: assembly.contacts.iter().map(|contact| contact_form(contact, first_block)).collect(),
@@ -233,24 +229,16 @@ fn pair(point: Point) -> Pair {
     [point.x, point.y]
 }
 
-/// Writes a contact. If its two points coincide, it has one point and a normal.
+/// Writes a contact: an edge with its two ends, a corner with its point and a normal.
 fn contact_form(contact: &AssemblyContact, first_block: usize) -> ContactForm {
     let index = |body: BodyId| match body {
         BodyId::Ground(k) => k,
         BodyId::Block(id) => first_block + id.0,
     };
-    let [first, second] = contact.points;
-    let one_point = contact.kind == ContactKind::Corner || first == second;
-    let along = contact.ends[1] - contact.ends[0];
-    let normal = match contact.kind {
-        ContactKind::Edge => [along.y, -along.x],
-        _ => [contact.normal.x, contact.normal.y],
-    };
     ContactForm {
         bodies: contact.bodies.map(index),
-        points: if one_point { vec![pair(first)] } else { vec![pair(first), pair(second)] },
-        normal: one_point.then_some(normal),
-        ends: (contact.kind == ContactKind::Edge && contact.ends != contact.points).then(|| contact.ends.map(pair)),
+        points: contact.ends.iter().take(contact.points_in_use()).map(|end| pair(*end)).collect(),
+        normal: (contact.kind == ContactKind::Corner).then_some([contact.normal.x, contact.normal.y]),
         friction: contact.friction,
     }
 }

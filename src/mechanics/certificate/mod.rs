@@ -19,6 +19,7 @@ mod fraction;
 mod limits;
 mod links;
 mod make;
+mod number;
 mod places;
 mod stand;
 
@@ -69,12 +70,12 @@ pub struct BodyForm {
     pub id: String,
     /// Whether the body is a part of the ground, which never moves and bears any load.
     pub ground: bool,
-    /// The corners of the outline, metres; empty for a circle.
+    /// The corners of the outline, metres, anticlockwise; empty for a circle.
     pub outline: Vec<Pair>,
     /// The circle, if the body is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub circle: Option<CircleForm>,
-    /// The corners of each hole, metres.
+    /// The corners of each hole, metres, clockwise.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<Vec<Pair>>,
     /// The weight, N, along the gravity of the frame.
@@ -126,6 +127,10 @@ pub struct FrameForm {
     /// The factor by which the loads of all bodies, without their weights, are multiplied.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub load_factor: f64,
+    /// The safety kernel: the forces of each contact with two points act at least this share of half its length away from
+    /// its points.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub kernel: f64,
     /// A further load on a body, which no load factor multiplies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<(usize, LoadForm)>,
@@ -148,22 +153,19 @@ pub struct FrameForm {
     pub still: Vec<Step>,
 }
 
-/// A contact. Its normal n points into the first body. At each point, a normal force presses along n; one friction
-/// force acts on the first body along t = (−n_y, n_x), at the first point.
+/// A contact. Its normal n points into the first body. At each point, or as far inward of it as the kernel says, a normal
+/// force presses along n; one friction force acts on the first body along t = (−n_y, n_x), with the first normal force.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContactForm {
     /// The indices of the two bodies. The forces act on the first; the opposite forces act on the second.
     pub bodies: [usize; 2],
-    /// The one or two points at which normal forces act, metres. With two points, t is the vector from the first to the
-    /// second, with its length, and n = (t_y, −t_x).
+    /// The one point or the two ends of the contact, metres. With two, t is the vector from the first to the second, with
+    /// its length, and n = (t_y, −t_x).
     pub points: Vec<Pair>,
     /// The normal n of a contact with one point; any length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal: Option<Pair>,
-    /// The ends of the common edge, metres, if they are not the points (because of a safety kernel).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub ends: Option<[Pair; 2]>,
     /// The friction coefficient μ: |T| ≤ μ (N₁ + N₂).
     pub friction: f64,
 }
@@ -233,22 +235,28 @@ pub struct LimitForm {
     pub still: Vec<Step>,
 }
 
-/// One change of a frame. [`Change::of`] makes it, in double arithmetic.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Change {
+/// The keys of a frame that a changed frame has with other values.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Change {
     /// The factor on the listed loads.
-    LoadFactor(f64),
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_factor: Option<f64>,
     /// The direction of gravity: rotated for a tilt, and lengthened too for a horizontal load.
-    Gravity(Pair),
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<Pair>,
     /// The friction coefficient of every contact.
-    Friction(f64),
-    /// The safety kernel of every contact with two ends.
-    Kernel(f64),
-    /// One limit of a grip: the index of the grip, the component (0 force x, 1 force y, 2 torque), and the limit.
-    Limit(usize, usize, f64),
-    /// A further load on a body; the grip with the given index is taken away.
-    Force(usize, LoadForm, Option<usize>),
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
+    /// The safety kernel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kernel: Option<f64>,
+    /// A further load on a body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force: Option<(usize, LoadForm)>,
+    /// The limits of each grip.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grip_limits: Option<Vec<[Option<f64>; 3]>>,
 }
 
 impl Change {
@@ -259,26 +267,24 @@ impl Change {
 
     /// Returns the changed frame, without proof.
     pub fn of(&self, frame: &FrameForm) -> FrameForm {
-        let mut changed = FrameForm { forces: None, motion: None, still: Vec::new(), ..frame.clone() };
-        match self {
-            Change::LoadFactor(factor) => changed.load_factor = *factor,
-            Change::Gravity(gravity) => changed.gravity = *gravity,
-            Change::Friction(friction) => changed.contacts.iter_mut().for_each(|c| c.friction = *friction),
-            Change::Kernel(kernel) => changed.contacts.iter_mut().for_each(|contact| contact.set_kernel(*kernel)),
-            Change::Limit(grip, component, limit) => {
-                let grip = changed.grips.get_mut(*grip);
-                if let Some(place) = grip.and_then(|grip| grip.limits.get_mut(*component)) {
-                    *place = Some(*limit);
-                }
-            }
-            Change::Force(body, force, without) => {
-                changed.force = Some((*body, force.clone()));
-                if let Some(grip) = without.and_then(|grip| changed.grips.get_mut(grip)) {
-                    grip.limits = [Some(0.0); 3];
-                }
-            }
+        let mut changed = FrameForm {
+            load_factor: self.load_factor.unwrap_or(frame.load_factor),
+            gravity: self.gravity.unwrap_or(frame.gravity),
+            kernel: self.kernel.unwrap_or(frame.kernel),
+            force: self.force.clone().or_else(|| frame.force.clone()),
+            ..frame.without_proof()
+        };
+        changed.contacts.iter_mut().for_each(|contact| contact.friction = self.friction.unwrap_or(contact.friction));
+        for (grip, limits) in changed.grips.iter_mut().zip(self.grip_limits.iter().flatten()) {
+            grip.limits = *limits;
         }
         changed
+    }
+}
+
+impl FrameForm {
+    fn without_proof(&self) -> FrameForm {
+        FrameForm { forces: None, motion: None, still: Vec::new(), ..self.clone() }
     }
 }
 
@@ -289,32 +295,16 @@ impl Checked {
     }
 }
 
-impl ContactForm {
-    /// Moves the two points inward by half of the kernel times the length of the contact. A contact with one end stays.
-    fn set_kernel(&mut self, kernel: f64) {
-        let [first, second] = match (self.ends, &self.points[..]) {
-            (Some(ends), _) => ends,
-            (None, [first, second]) => [*first, *second],
-            _ => return,
-        };
-        let along = [second[0] - first[0], second[1] - first[1]];
-        let step = [along[0] * (0.5 * kernel), along[1] * (0.5 * kernel)];
-        self.ends = Some([first, second]);
-        self.points = vec![[first[0] + step[0], first[1] + step[1]], [second[0] - step[0], second[1] - step[1]]];
-        self.normal = None;
-        if kernel >= 1.0 || self.points[0] == self.points[1] {
-            self.points.truncate(1);
-            self.normal = Some([along[1], -along[0]]);
-        }
-    }
-}
-
 fn one() -> f64 {
     1.0
 }
 
 fn is_one(factor: &f64) -> bool {
     *factor == 1.0
+}
+
+fn is_zero(kernel: &f64) -> bool {
+    *kernel == 0.0
 }
 
 impl Certificate {
@@ -333,14 +323,18 @@ impl Certificate {
     /// Returns in which part this certificate is about another structure than `other`; `None` if the structures are
     /// equal. The proofs may differ.
     pub fn differs_from(&self, other: &Certificate) -> Option<&'static str> {
-        let form = |frame: &FrameForm| FrameForm { forces: None, motion: None, still: Vec::new(), ..frame.clone() };
         if self.bodies != other.bodies {
             Some("the bodies differ")
         } else if [self.distance, self.shortest] != [other.distance, other.shortest]
             || (self.corners_carry, self.listed) != (other.corners_carry, other.listed)
         {
             Some("the tolerances or the rules of contact differ")
-        } else if !self.frames.iter().map(form).eq(other.frames.iter().map(form)) {
+        } else if !self
+            .frames
+            .iter()
+            .map(FrameForm::without_proof)
+            .eq(other.frames.iter().map(FrameForm::without_proof))
+        {
             Some("the frames differ: verdicts, placed blocks, contacts or robots")
         } else if self.scene_sha256 != other.scene_sha256 {
             Some("the file has another hash")

@@ -2,7 +2,7 @@
 //! left out.
 
 use super::fraction::{Rational, Vector, exact, float, square, square_length, zero};
-use super::links::normal_of;
+use super::links::{ends, normal_of, sides};
 use super::{BodyForm, Certificate, CircleForm, ContactForm, FrameForm};
 
 impl Certificate {
@@ -21,7 +21,10 @@ impl Certificate {
                 for at in &contact.points {
                     let at = Vector::new(*at);
                     let (away, is_near) = match self.bodies[*body].circle {
-                        Some(circle) => self.at_circle(&at, circle),
+                        Some(circle) => {
+                            let (away, is_near) = self.at_circle(&at, circle);
+                            (away, is_near && contact.points.len() == 1)
+                        }
                         None => {
                             let nearest = edges.iter().map(|[a, b]| distance_squared(&at, a, b)).min();
                             let Some(nearest) = nearest else { continue };
@@ -95,7 +98,7 @@ impl Certificate {
                 }
                 let contacts =
                     frame.contacts.iter().filter(|c| c.bodies == [*one, *other] || c.bodies == [*other, *one]);
-                let spans: Vec<[Vector; 2]> = contacts.map(span).collect();
+                let spans: Vec<[Vector; 2]> = contacts.map(ends).collect();
                 let is_covered = |at: &Vector| spans.iter().any(|[a, b]| distance_squared(at, a, b) <= covered);
                 let edges = bodies.map(edges);
                 if bodies.iter().any(|body| body.circle.is_some()) {
@@ -111,8 +114,7 @@ impl Certificate {
                         let bare: Vec<&Vector> = near.map(|(at, ..)| at).filter(|at| !is_covered(at)).collect();
                         let apart = bare.iter().flat_map(|p| bare.iter().map(|q| square_length(&p.minus(q)))).max();
                         let is_corner = apart.as_ref().is_none_or(|apart| *apart <= shortest);
-                        let crosses = bare.is_empty() && spans.is_empty() && cross_each_other([a, b], [c, d]);
-                        if !is_corner || (self.corners_carry && !bare.is_empty()) || crosses {
+                        if !is_corner || (self.corners_carry && !bare.is_empty()) {
                             let names = bodies.map(|body| body.id.as_str()).join(" and ");
                             faults.push(format!("{names} touch without a contact"));
                         }
@@ -180,20 +182,9 @@ fn separates(normal: &Vector, edges: &[[Vector; 2]], sign: i32, at: &Vector, all
 /// within the contact tolerance may be turned by about 0.1°.
 const ANGLE_SQUARED: f64 = 1e-4;
 
-/// The edges of a body, with its inside on the left.
+/// The edges of a body, with its inside on the left; none for a circle.
 fn edges(body: &BodyForm) -> Vec<[Vector; 2]> {
-    let mut edges = Vec::new();
-    for (ring, corners) in std::iter::once(&body.outline).chain(&body.holes).enumerate() {
-        let corners: Vec<Vector> = corners.iter().map(|p| Vector::new(*p)).collect();
-        let next = || corners.iter().cycle().skip(1);
-        let twice = corners.iter().zip(next()).map(|(p, q)| p.cross(q)).fold(zero(), |sum, term| sum + term);
-        let is_forward = (twice > zero()) == (ring == 0);
-        edges.extend(corners.iter().zip(next()).map(|(p, q)| match is_forward {
-            true => [p.clone(), q.clone()],
-            false => [q.clone(), p.clone()],
-        }));
-    }
-    edges
+    std::iter::once(&body.outline).chain(&body.holes).flat_map(|ring| sides(ring)).collect()
 }
 
 /// The square of the distance of a point from a segment.
@@ -209,14 +200,6 @@ fn distance_squared(at: &Vector, a: &Vector, b: &Vector) -> Rational {
     }
 }
 
-/// The two ends of a contact.
-fn span(contact: &ContactForm) -> [Vector; 2] {
-    match contact.ends {
-        Some(ends) => ends.map(Vector::new),
-        None => [&contact.points[0], &contact.points[contact.points.len() - 1]].map(|p| Vector::new(*p)),
-    }
-}
-
 /// True if the boxes around two bodies, grown by twice the distance, meet. Bodies for which this is false do not touch.
 fn boxes_meet(bodies: [&BodyForm; 2], distance: f64) -> bool {
     [0, 1].iter().all(|axis| {
@@ -227,11 +210,4 @@ fn boxes_meet(bodies: [&BodyForm; 2], distance: f64) -> bool {
         });
         one[0] - 2.0 * distance <= other[1] && other[0] - 2.0 * distance <= one[1]
     })
-}
-
-/// True if two segments cross in a point inside both.
-fn cross_each_other([a, b]: [&Vector; 2], [c, d]: [&Vector; 2]) -> bool {
-    let side = |p: &Vector, q: &Vector, at: &Vector| q.minus(p).cross(&at.minus(p));
-    let opposite = |one: Rational, other: Rational| one * other < zero();
-    opposite(side(a, b, c), side(a, b, d)) && opposite(side(c, d, a), side(c, d, b))
 }

@@ -6,7 +6,7 @@ use super::check::LARGEST_STEP;
 use super::{FrameForm, Step};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::mechanics::program::{Force, Program, Scale, columns};
-use crate::mechanics::solve::{Amounts, Conditioning, Limit, balance, largest_factor};
+use crate::mechanics::solve::{Amounts, Conditioning, Limit, any_balance, balance, largest_factor};
 use crate::mechanics::statics::assembly::Assembly;
 
 /// If all contacts may press without limit, as a wedged stone does, each normal force gets this share of the heaviest
@@ -19,34 +19,44 @@ const SLACK_OF_ROBOTS: f64 = 1e-6;
 /// The largest number of bodies that are corrected at once.
 pub(super) const MAX_AT_ONCE: usize = 16;
 
-/// Returns the forces with the largest slack, in the order of [`listed_forces`]. `None` if a program has no result.
+/// Returns any forces that balance the loads, as an interior-point method finds them: far from the limits of most contacts.
+/// `None` if a program has no result.
+pub(super) fn inner_forces(assembly: &Assembly) -> Option<Vec<[f64; 3]>> {
+    forces_of(assembly, |program| Some((any_balance(program).forces?, 0.0)))
+}
+
+/// Returns the forces with the largest slack. `None` if a program has no result.
 pub(super) fn slack_forces(assembly: &Assembly) -> Option<Vec<[f64; 3]>> {
+    forces_of(assembly, |program| {
+        // The direction in which the loads change if each contact point takes one unit of pressure for itself.
+        let mut pressures = vec![0.0; program.loads.len()];
+        for column in columns(program) {
+            if matches!(column.force, Force::Ray { friction: 0.0, .. }) {
+                column.add_to(&mut pressures, -1.0);
+            }
+        }
+        let found = largest_factor(program, &pressures);
+        if let Limit::At(slack) = found.limit {
+            return Some((found.forces?, slack));
+        }
+        let slack = SLACK_OF_WEDGED * Scale::HEAVIEST;
+        for (load, pressure) in program.loads.iter_mut().zip(&pressures) {
+            *load += slack * pressure;
+        }
+        Some((balance(program, Conditioning::Full).forces?, slack))
+    })
+}
+
+/// Returns the forces of all components in the order of [`listed_forces`], from the forces of each program and what is
+/// added to each of its normal forces. Robots keep some slack.
+fn forces_of(assembly: &Assembly, solve: impl Fn(&mut Program) -> Option<(Amounts, f64)>) -> Option<Vec<[f64; 3]>> {
     let mut forces = vec![[0.0; 3]; assembly.contacts.len() + assembly.grips.len()];
     for component in assembly.components() {
         let mut program = Program::new(&component, Scale::from_assembly(&component));
         for limit in program.grips.iter_mut().flat_map(|grip| &mut grip.limits) {
             *limit *= 1.0 - SLACK_OF_ROBOTS;
         }
-        // The direction in which the loads change if each contact point takes one unit of pressure for itself.
-        let mut pressures = vec![0.0; program.loads.len()];
-        for column in columns(&program) {
-            if matches!(column.force, Force::Ray { friction: 0.0, .. }) {
-                column.add_to(&mut pressures, -1.0);
-            }
-        }
-        let (slack, amounts) = match largest_factor(&program, &pressures) {
-            found if matches!(found.limit, Limit::At(_)) => match found.limit {
-                Limit::At(slack) => (slack, found.forces?),
-                _ => return None,
-            },
-            _ => {
-                let slack = SLACK_OF_WEDGED * Scale::HEAVIEST;
-                for (load, pressure) in program.loads.iter_mut().zip(&pressures) {
-                    *load += slack * pressure;
-                }
-                (slack, balance(&program, Conditioning::Full).forces?)
-            }
-        };
+        let (amounts, slack) = solve(&mut program)?;
         put(&mut forces, assembly, &component, &program, &amounts, slack);
     }
     Some(forces)

@@ -1,0 +1,169 @@
+//! [`Number`]: what the checks compute with. Intervals decide most proofs, sooner than [`Rational`] numbers, which decide
+//! the others.
+
+pub(super) use dashu_ratio::Relaxed as Rational;
+
+/// A number that is known exactly, or to lie between two bounds. What a method says of it holds for sure.
+pub(super) trait Number: Clone {
+    /// The number that a double is.
+    fn exact(value: f64) -> Self;
+    fn plus(&self, other: &Self) -> Self;
+    fn minus(&self, other: &Self) -> Self;
+    fn times(&self, other: &Self) -> Self;
+    /// The quotient; `None` if the divisor may be 0.
+    fn over(&self, other: &Self) -> Option<Self>;
+    fn magnitude(&self) -> Self;
+    fn is_zero(&self) -> bool;
+    fn is_at_most_zero(&self) -> bool;
+    fn is_positive(&self) -> bool;
+    /// The number, rounded.
+    fn float(&self) -> f64;
+    /// The same number as a fraction in lowest terms.
+    fn reduced(&self) -> Self;
+    /// True if every comparison can be decided.
+    const DECIDES: bool;
+
+    fn zero() -> Self {
+        Self::exact(0.0)
+    }
+
+    fn negative(&self) -> Self {
+        Self::zero().minus(self)
+    }
+}
+
+impl Number for Rational {
+    const DECIDES: bool = true;
+
+    /// JSON has no infinite numbers, and the form has been checked.
+    fn exact(value: f64) -> Rational {
+        Rational::try_from(value).unwrap_or(Rational::ZERO)
+    }
+
+    fn plus(&self, other: &Rational) -> Rational {
+        self + other
+    }
+
+    fn minus(&self, other: &Rational) -> Rational {
+        self - other
+    }
+
+    fn times(&self, other: &Rational) -> Rational {
+        self * other
+    }
+
+    fn over(&self, other: &Rational) -> Option<Rational> {
+        (*other != Rational::ZERO).then(|| self / other)
+    }
+
+    fn magnitude(&self) -> Rational {
+        if *self < Rational::ZERO { -self.clone() } else { self.clone() }
+    }
+
+    fn is_zero(&self) -> bool {
+        *self == Rational::ZERO
+    }
+
+    fn is_at_most_zero(&self) -> bool {
+        *self <= Rational::ZERO
+    }
+
+    fn is_positive(&self) -> bool {
+        *self > Rational::ZERO
+    }
+
+    fn float(&self) -> f64 {
+        self.to_f64().value()
+    }
+
+    fn reduced(&self) -> Rational {
+        self.clone().canonicalize().relax()
+    }
+}
+
+/// All numbers between two doubles. Each operation rounds outward.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Interval {
+    low: f64,
+    high: f64,
+}
+
+impl Interval {
+    const ALL: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
+    const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
+
+    /// The interval around rounded results.
+    fn around<const N: usize>(results: [f64; N]) -> Interval {
+        if !results.iter().all(|result| result.is_finite()) {
+            return Interval::ALL;
+        }
+        let [low, high] = [f64::min, f64::max].map(|choose| results.into_iter().fold(results[0], choose));
+        Interval { low: low.next_down(), high: high.next_up() }
+    }
+
+    fn bounds(self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+}
+
+impl Number for Interval {
+    const DECIDES: bool = false;
+
+    fn exact(value: f64) -> Interval {
+        if value.is_finite() { Interval { low: value, high: value } } else { Interval::ALL }
+    }
+
+    fn plus(&self, other: &Interval) -> Interval {
+        if self.is_zero() || other.is_zero() {
+            return if self.is_zero() { *other } else { *self };
+        }
+        Interval::around([self.low + other.low, self.high + other.high])
+    }
+
+    fn minus(&self, other: &Interval) -> Interval {
+        // Two equal doubles differ by nothing.
+        if self == other && self.low == self.high {
+            return Interval::ZERO;
+        }
+        self.plus(&Interval { low: -other.high, high: -other.low })
+    }
+
+    fn times(&self, other: &Interval) -> Interval {
+        if self.is_zero() || other.is_zero() {
+            return Interval::ZERO;
+        }
+        let ([a, b], [c, d]) = (self.bounds(), other.bounds());
+        Interval::around([a * c, a * d, b * c, b * d])
+    }
+
+    fn over(&self, other: &Interval) -> Option<Interval> {
+        let ([a, b], [c, d]) = (self.bounds(), other.bounds());
+        let is_certain = c > 0.0 || d < 0.0;
+        is_certain.then(|| if self.is_zero() { *self } else { Interval::around([a / c, a / d, b / c, b / d]) })
+    }
+
+    fn magnitude(&self) -> Interval {
+        let least = self.low.max(-self.high).max(0.0);
+        Interval { low: least, high: self.high.max(-self.low) }
+    }
+
+    fn is_zero(&self) -> bool {
+        *self == Interval::ZERO
+    }
+
+    fn is_at_most_zero(&self) -> bool {
+        self.high <= 0.0
+    }
+
+    fn is_positive(&self) -> bool {
+        self.low > 0.0
+    }
+
+    fn float(&self) -> f64 {
+        self.high
+    }
+
+    fn reduced(&self) -> Interval {
+        *self
+    }
+}
