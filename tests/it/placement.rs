@@ -8,8 +8,11 @@ use drystone::analysis::{Options, Placement, PlacementLimit, Verdict};
 use drystone::result::{Layout, Timing, to_json};
 use drystone::starter::{Doorway, Tower};
 use drystone::{Analysis, Scene};
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
+use crate::oracle::balance::Balance;
+use crate::oracle::{number_of, random, touch};
 use crate::random::Random;
 use crate::structure::{block, on_floor, rectangle, scene};
 
@@ -266,4 +269,80 @@ fn robots_hold_with_their_limits() {
     };
     let [weak, strong] = [3.0, 6.0].map(held);
     assert!(weak > 0.0 && strong > weak, "{weak} {strong}");
+}
+
+/// The scene in which the centre of gravity of each block is off by its offset, metres, to the right, its loads to the
+/// side that turns it the same way: as torques, because all gravity points down.
+fn off_as(file: &Value, start: &Scene, offsets: &[f64]) -> Scene {
+    let mut moved = file.clone();
+    let mut loads = moved["loads"].as_array().cloned().unwrap_or_default();
+    for (number, (block, offset)) in start.blocks().iter().zip(offsets).enumerate() {
+        let own = start.loads().iter().filter(|load| load.block.0 == number);
+        let size = block.weight + own.map(|load| load.force.norm()).sum::<f64>();
+        let at = [block.centroid.x, block.centroid.y];
+        loads.push(json!({ "block": block.id, "force": [0, 0], "at": at, "torque": -offset * size }));
+    }
+    moved["loads"] = json!(loads);
+    scene(&moved)
+}
+
+/// Whether exact forces balance the scene if the ends of all joints are `inward` metres inside their places.
+fn stands_exactly(moved: &Scene, inward: f64) -> bool {
+    let mut touches = touch::as_found(moved);
+    for touch in &mut touches {
+        let [first, last] = touch.ends.clone();
+        let along = touch::minus(&last, &first);
+        let share = touch::exact(inward / touch::dot(&along, &along).to_f64_fast().sqrt());
+        let step = along.map(|v| v * &share);
+        touch.ends = [[&first[0] + &step[0], &first[1] + &step[1]], touch::minus(&last, &step)];
+    }
+    Balance::groups(moved, &touches).iter().all(Balance::stands)
+}
+
+/// Walls, stacks, lattices and arches with robots and loads, by an exact program that shares no code with the search: all
+/// patterns within the proved tolerance stand, and the pattern of `falls_at` falls. `DRYSTONE_PLACEMENTS` sets the number
+/// of scenes.
+#[test]
+fn exact_programs_confirm_tolerances_of_random_scenes() {
+    let count = number_of("DRYSTONE_PLACEMENTS", 24);
+    let judge = |number: u64| {
+        let (_, mut file) = random::scene(number);
+        file["kernel"] = json!(0);
+        file.as_object_mut().expect("a scene").remove("gravity");
+        let start = Scene::from_json(&file.to_string()).ok().filter(|scene| scene.blocks().len() <= 9)?;
+        let analysis = Analysis::with(&start, &Options::default().placement(true));
+        let found = analysis.frames[0].placement.clone().filter(|found| found.proved > 0.0)?;
+        let mut offsets = vec![0.0; start.blocks().len()];
+        found.pattern.iter().for_each(|error| offsets[error.block.0] = error.offset.x);
+        if let Some(at) = found.falls_at {
+            let beyond: Vec<f64> = offsets.iter().map(|offset| offset * 1.001).collect();
+            let falls = !stands_exactly(&off_as(&file, &start, &beyond), at * 1.001);
+            assert!(falls, "scene {number} stands beyond {at}: {file}");
+        }
+        // Random patterns, and the pattern that falls with one block changed or none.
+        let mut random = Random::new(number);
+        let within = found.proved * 0.999;
+        for pattern in 0..6 + offsets.len() {
+            let sign = |block: usize, offset: f64| match pattern.checked_sub(6) {
+                Some(changed) => {
+                    if (offset < 0.0) == (changed == block) {
+                        within
+                    } else {
+                        -within
+                    }
+                }
+                None => within,
+            };
+            let mut errors: Vec<f64> = offsets.iter().enumerate().map(|(block, offset)| sign(block, *offset)).collect();
+            if pattern < 6 {
+                errors.iter_mut().for_each(|error| *error *= if random.percent(50) { 1.0 } else { -1.0 });
+            }
+            let stands = stands_exactly(&off_as(&file, &start, &errors), within);
+            assert!(stands, "scene {number} falls within {}: {errors:?} {file}", found.proved);
+        }
+        Some(found.falls_at.map_or(0.0, |at| 1.0 - found.proved / at))
+    };
+    let gaps: Vec<f64> = (0..count).into_par_iter().filter_map(judge).collect();
+    let wide = gaps.iter().filter(|gap| **gap > 0.1).count();
+    assert!(gaps.len() as u64 * 5 > count && wide * 10 <= gaps.len(), "{wide} of {} gaps are wide", gaps.len());
 }
