@@ -249,6 +249,31 @@ fn both_sides_of_margins_and_capacities_are_exact() {
     }
 }
 
+/// A left-out contact proves a margin too small, and a block that is placed twice has its weight twice.
+#[test]
+fn changed_frames_need_every_contact_and_no_block_counts_twice() {
+    let right = certificate(&Scene::from_json(ROBOT).expect("a scene"), &Options::default().margins(true));
+    let (mut bare, mut twice) = (right.clone(), right.clone());
+    // The joint of the two blocks is left out; the other one is there twice.
+    let contacts = &mut bare.frames[0].contacts;
+    let blocks = contacts.iter().position(|contact| contact.bodies == [2, 1]).expect("a joint");
+    contacts[blocks] = contacts[1 - blocks].clone();
+    let checked = bare.check().expect("a structure");
+    let beyond = checked.limits.iter().filter(|limit| limit.verdict == Verdict::Unstable.word());
+    let is_refused = |faults: &[String]| faults.iter().any(|fault| fault.contains("touch without a contact"));
+    assert!(beyond.clone().count() > 0 && beyond.clone().all(|limit| is_refused(&limit.faults)), "{checked:?}");
+    twice.frames[0].placed.push(right.frames[0].placed[0]);
+    assert!(twice.check().is_err());
+    let Some(pages) = by_python(&[bare.to_json(), twice.to_json()]) else { return };
+    let beyond = pages[0].iter().filter(|line| line.contains(": falls"));
+    assert!(
+        beyond.clone().count() > 0 && beyond.clone().all(|line| is_refused(std::slice::from_ref(line))),
+        "{:#?}",
+        pages[0]
+    );
+    assert!(proved_by_python(&pages[1]).iter().all(|proved| !proved), "{:#?}", pages[1]);
+}
+
 #[test]
 fn a_wrong_number_is_refused_by_both_checkers_or_by_none() {
     let mut random = 1_u64;
