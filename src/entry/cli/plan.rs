@@ -44,9 +44,9 @@ impl Plan {
         if let Some(path) = output {
             destination::refuse_overwrites(&[path.to_owned()], &[&self.scene])?;
         }
-        let (source, text) = source::with_text(&self.scene, &self.level)?;
+        let source = source::read_one(&self.scene, &self.level)?;
         let name = source.name();
-        let mut file: SceneFile = parsed(&text).map_err(|error| CliError::not_read(&name, error))?;
+        let mut file: SceneFile = parsed(&source.text()).map_err(|error| CliError::not_read(&name, error))?;
         file.tolerate(self.level.contact_tolerance);
         let options = self.level.options();
         let planned = match plan(file, usize::from(self.robots), &options) {

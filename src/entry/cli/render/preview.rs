@@ -22,10 +22,9 @@ use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::picture::Format;
 use crate::entry::cli::source;
+use crate::entry::cli::style_args::ThemeChoice;
 use crate::entry::cli::terminal::{Terminal, uncoloured};
 use crate::entry::cli::watch;
-use crate::entry::request::ThemeName;
-use crate::pictures::drawing::Theme;
 use crate::pictures::output::fonts::Fonts;
 use crate::products::figure::{Kind, Options};
 use crate::products::result::quoted;
@@ -175,7 +174,7 @@ impl Preview<'_> {
                 || kind.needs_capacity() && figure.capacity.capacity.is_none()
         };
         let kinds = Kind::ALL.into_iter().filter(|kind| !needs_more(*kind)).map(|kind| quoted(kind.name()));
-        let themes = Theme::NAMES.into_iter().map(quoted);
+        let themes = ThemeChoice::all().into_iter().map(|theme| quoted(theme.word()));
         let list = |items: Vec<String>| format!("[{}]", items.join(","));
         let [scenes, kinds, themes] = [list(scenes.collect()), list(kinds.collect()), list(themes.collect())];
         format!("{{\"version\":{},\"scenes\":{scenes},\"kinds\":{kinds},\"themes\":{themes}}}", state.version)
@@ -206,7 +205,7 @@ impl Preview<'_> {
         let scene = scene.parse().ok().and_then(|number: usize| self.scenes.get(number));
         let mut render = self.render.clone();
         render.draw.figure.kind = Kind::from_name(kind).unwrap_or(render.draw.figure.kind);
-        let theme = ThemeName::all().into_iter().find(|name| name.word() == theme);
+        let theme = ThemeChoice::all().into_iter().find(|choice| choice.word() == theme);
         render.draw.look.theme = theme.or(render.draw.look.theme);
         render.draw.check(Format::Svg)?;
         let (options, fonts) = (render.draw.options()?, render.draw.picture.fonts()?);
