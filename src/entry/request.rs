@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::clock::Instant;
-use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Toward, typed_capacity};
+use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Reach, Toward, typed_capacity};
 #[cfg(feature = "certificate")]
 use crate::mechanics::certificate::Certificate;
 use crate::mechanics::scene::{BlockId, Scene, SceneError, Setting};
@@ -85,6 +85,10 @@ request! {
         /// largest effect; --json has them all
         sensitivity: Option<SensitivityMargin> = given.word("sensitivity"),
             arg(long, value_parser = crate::text::typed_word::<SensitivityMargin>(), value_name = "MARGIN");
+        /// Find the least single changes with which a margin reaches a value: load_factor=2, tilt=10 or
+        /// horizontal_load=0.2
+        reach: Option<Reach> = given.value("reach", reach),
+            arg(long, value_parser = reach, value_name = "MARGIN=VALUE");
         capacity: CapacityArgs = CapacityArgs::read(given), command(flatten);
         /// With --placement: only these blocks are off their places, all others are exact
         placed: Option<Vec<String>> = given.list("placed", |r, node, at| r.text(node, at)),
@@ -249,6 +253,7 @@ impl CheckArgs {
     pub(crate) fn base(&self) -> analysis::Options {
         let mut options = self.margins.add_to(self.level.options()).verdict_only(self.verdict_only);
         options.sensitivity = self.sensitivity.map(|margin| margin.0);
+        options.reach = self.reach;
         options
     }
 
@@ -510,6 +515,16 @@ pub(crate) fn between(typed: &str, [least, most]: [f64; 2], error: impl Fn() -> 
 
 fn length(typed: &str) -> Result<f64, String> {
     between(typed, [0.0, 1e12], || "give a length in metres, from 0 to 1e12".into())
+}
+
+/// Parses a target, such as `load_factor=2`.
+fn reach(typed: &str) -> Result<Reach, String> {
+    use MarginKind::{HorizontalLoad, LoadFactor, Tilt};
+    let error = || "give load_factor, tilt (up to 80°) or horizontal_load, =, and a value of at least 0".to_owned();
+    let (kind, value) = typed.split_once('=').ok_or_else(error)?;
+    let kind = MarginKind::from_word(kind).filter(|kind| matches!(kind, LoadFactor | Tilt | HorizontalLoad));
+    let kind = kind.ok_or_else(error)?;
+    Ok(Reach { kind, value: between(value, [0.0, if kind == Tilt { 80.0 } else { 1e6 }], error)? })
 }
 
 fn seconds(typed: &str) -> Result<Duration, String> {

@@ -58,6 +58,7 @@ mod problems;
 mod mutant;
 mod program;
 mod random;
+mod reach;
 mod removable;
 mod round;
 mod report;

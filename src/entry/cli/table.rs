@@ -12,7 +12,9 @@ use crate::products::result::Timing;
 use crate::products::wording::number::{duration, letter, quantity, tenths};
 use crate::products::wording::thrust::thrust_range;
 use crate::products::wording::verdict::plain;
-use crate::products::wording::{capacity, case, failure, margin, movement, placement, proof, removable, vehicle};
+use crate::products::wording::{
+    capacity, case, failure, margin, movement, placement, proof, reach, removable, vehicle,
+};
 use crate::text::heading;
 
 /// The words in the tables and in the lines below them, with their meanings.
@@ -333,6 +335,7 @@ fn remarks(analysis: &Analysis, number: usize, detail: &Detail) -> Vec<String> {
     remarks.extend(moved);
     let rows = frame.removable.iter();
     remarks.extend(rows.map(|rows| format!("removable: {}", removable::phrases(scene, rows).join("; "))));
+    remarks.extend(frame.reach.iter().flat_map(|found| reach::lines(scene, found)));
     remarks.extend(frame.vehicle.as_ref().map(|influence| format!("vehicle: {}", vehicle::sentence(scene, influence))));
     let carried = frame.capacity.iter();
     remarks.extend(carried.map(|c| format!("capacity: {}", capacity::sentences(scene, frame.verdict, c))));

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::{Analysis, FrameAnalysis, Margin, Margins, Options, Verdict};
+use super::{Analysis, FrameAnalysis, Margin, Margins, Options, Verdict, reach};
 use crate::mechanics::scene::{Case, Load, Scene};
 
 /// The results of all load cases of one frame.
@@ -88,7 +88,9 @@ fn times(load: &Load, factor: f64) -> Load {
 impl Analysis {
     /// Analyses a scene with load cases.
     pub(super) fn of_cases(scene: Arc<Scene>, options: &Options) -> Analysis {
-        let each = scene.cases.iter().map(|case| Analysis::with(scene.in_case(case), options));
+        // A change must reach its target in all cases.
+        let alone = Options { reach: None, ..*options };
+        let each = scene.cases.iter().map(|case| Analysis::with(scene.in_case(case), &alone));
         let mut each: Vec<Analysis> = each.collect();
         let notes = each.first_mut().map(|first| std::mem::take(&mut first.notes)).unwrap_or_default();
         let mut frames = Vec::with_capacity(scene.frames.len());
@@ -107,6 +109,7 @@ impl Analysis {
             frames.push(frame);
             scenes.push(each[governing].scene.clone());
         }
+        reach::add_reach(&scene, &mut frames, options);
         // Results of the whole scene, such as a list of inputs, show the case of the worst frame.
         let worst = worst_of(&frames.iter().collect::<Vec<_>>());
         let shown = scenes.get(worst).unwrap_or(&scene).clone();

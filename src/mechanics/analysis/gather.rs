@@ -36,6 +36,7 @@ pub(super) fn unloaded_frame(context: &FrameContext, assembly: &Assembly, effect
         placement: None,
         movements: Vec::new(),
         removable: None,
+        reach: None,
         vehicle: None,
         capacity: None,
         only_by_wedging: None,

@@ -25,6 +25,7 @@ mod removable;
 mod wedged;
 mod thrust_states;
 mod movement;
+mod reach;
 mod vehicle;
 mod sensitivity;
 
@@ -64,6 +65,7 @@ pub use movement::{Crack, Cracked, MovementOutcome, SupportMovement};
 pub use option::{Accuracy, Options};
 pub use pair::pair;
 pub use placement::{BlockPlacement, Placement, PlacementError, PlacementLimit};
+pub use reach::{Change, ChangeKind, Reach, Reached};
 pub use removable::{Help, Removable};
 pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity, Slope};
 pub use thrust_states::{ThrustState, ThrustStates};
@@ -190,6 +192,8 @@ pub struct FrameAnalysis {
     pub movements: Vec<SupportMovement>,
     /// Which blocks may leave, in the order of placing, if requested.
     pub removable: Option<Vec<Removable>>,
+    /// What reaches the target of [`Options::reach`], if it was requested.
+    pub reach: Option<Reached>,
     /// The load factor for each position of the vehicle of the scene, if the frame stands.
     pub vehicle: Option<Influence>,
     /// The forces that a block can carry, if requested and if the block is placed.
@@ -243,6 +247,7 @@ impl Analysis {
         capacity::add_capacities(&scene, &interfaces, &mut frames, options);
         movement::add_movements(&scene, &interfaces, &mut frames, options);
         removable::add_removables(&scene, &interfaces, &mut frames, options);
+        reach::add_reach(&scene, &mut frames, options);
         vehicle::add_influence(&scene, &interfaces, &mut frames, options);
         let notes = gaps_closed::notes(&scene, &interfaces);
         Analysis { scene, frames, notes, cases: None }

@@ -114,7 +114,7 @@ fn of_block(rests: &Analysis, interfaces: &Interfaces, number: usize, verdict: V
 }
 
 /// No proof shows which force is the least.
-struct NotFound;
+pub(super) struct NotFound;
 
 /// The forces on one block with which a frame may stand, as far as the motions tell.
 struct Candidate {
@@ -129,7 +129,11 @@ struct Candidate {
 
 /// Finds the least force of a robot at one of the points, on one of the blocks, with which an assembly stands. `None` if
 /// no such force suffices. `motion` is a motion with which it falls, or empty.
-fn least_hold(given: &Assembly, points: Vec<(BlockId, Point)>, motion: &[Motion]) -> Result<Option<Help>, NotFound> {
+pub(super) fn least_hold(
+    given: &Assembly,
+    points: Vec<(BlockId, Point)>,
+    motion: &[Motion],
+) -> Result<Option<Help>, NotFound> {
     let candidate = |(block, at): (BlockId, Point)| {
         let body = given.bodies.iter().position(|body| body.block == block)?;
         Some(Candidate { block, body, at, half_planes: Vec::new(), least: Vector::zeros() })

@@ -23,6 +23,7 @@ mod margin;
 mod movement;
 mod refusal;
 mod placement;
+mod reach;
 mod removable;
 mod sensitivity;
 mod vehicle;
@@ -46,6 +47,7 @@ use margin::Margins;
 pub use margin::margins_json;
 use movement::Movement;
 use placement::Placement;
+use reach::Reach;
 pub use refusal::{problem_line, refusal};
 #[cfg(feature = "wasm")]
 pub(crate) use refusal::{problem_list, remark_list};
@@ -212,6 +214,8 @@ struct Frame<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     removable: Option<Vec<Removable<'a>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    reach: Option<Reach<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     vehicle: Option<Vehicle<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     capacity: Option<Capacity<'a>>,
@@ -335,6 +339,7 @@ impl<'a> Frame<'a> {
             envelope: cases.iter().flat_map(|cases| cases.envelope.iter().enumerate()).map(Envelope::new).collect(),
             movements: frame.movements.iter().map(|m| Movement::new(scene, m)).collect(),
             removable: frame.removable.as_ref().map(|rows| Removable::list(scene, rows)),
+            reach: frame.reach.as_ref().map(|found| Reach::new(scene, found)),
             vehicle: frame.vehicle.as_ref().map(|influence| Vehicle::new(scene, influence)),
             capacity: frame.capacity.as_ref().map(|c| Capacity::new(scene, c)),
             only_by_wedging: is_simulated(frame, EffectName::Wedging).then_some(frame.only_by_wedging),

@@ -12,6 +12,8 @@ pub mod margin;
 pub mod movement;
 pub mod number;
 pub mod placement;
+#[cfg(feature = "cli")]
+pub mod reach;
 pub mod removable;
 pub mod proof;
 pub mod sensitivity;
