@@ -130,6 +130,8 @@ fn the_command_line_names_the_blocks_that_are_off_their_places() {
         let status = command.arg(what).arg(&file).arg("--placement").arg("-o").arg(&output).status().expect("it runs");
         let text = fs::read_to_string(&output).expect("written").replace('\u{a0}', " ");
         assert!(status.success() && text.contains(&format!("for all errors up to {tolerance}")), "{name}: {tolerance}");
+        let row = text.lines().find(|line| line.contains("| placement tolerance |"));
+        assert!(what == "render" || row.is_some_and(|row| row.contains(&tolerance) && row.contains('█')), "{row:?}");
     }
     let (code, wrong) = run(&["--placement", "--placed", "b,c"]);
     assert!(code == Some(2) && wrong.contains("there is no block c"), "{wrong}");

@@ -3,6 +3,8 @@
 use crate::mechanics::analysis::{End, FrameAnalysis, Interval};
 use crate::mechanics::scene::Scene;
 use crate::products::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
+use crate::products::wording::number::{three_down, three_up};
+use crate::products::wording::placement;
 
 /// The way in which one end of a bar is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +49,32 @@ pub struct MarginBar {
 /// Returns the computed margins of a frame as bars, the headline margin first.
 pub fn margin_bars(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<MarginBar> {
     stated(scene, frame_analysis).iter().map(MarginBar::new).collect()
+}
+
+/// Returns the placement tolerance of a frame as a bar, if it was computed. The bar covers the errors for which the frame
+/// is proved to stand. Its end is confirmed if the frame falls with the same error, to three digits; the structure that
+/// is analysed has the error 0.
+pub(super) fn placement_bar(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<MarginBar> {
+    let found = frame_analysis.placement.as_ref()?;
+    let proved = placement::length(scene, found.proved, three_down);
+    let confirmed = found.falls_at.is_some_and(|at| at <= found.proved * (1.0 + 1e-3));
+    let farthest = found.falls_at.unwrap_or(found.proved);
+    Some(MarginBar {
+        name: "placement tolerance".to_owned(),
+        words: placement::sentence(scene, frame_analysis, found),
+        ends_and_present: [
+            "0".to_owned(),
+            if confirmed { proved } else { format!("at least {proved}") },
+            placement::length(scene, 0.0, three_up),
+        ],
+        scale: (0.0, if farthest > 0.0 { SCALE_END_RATIO * farthest } else { 1.0 }),
+        safe: Some((0.0, found.proved)),
+        ends: (BarEnd::Domain, if confirmed { BarEnd::Edge } else { BarEnd::Unconfirmed }),
+        now: Some((0.0, 0.0)),
+        position: Position::Inside,
+        is_load_factor: false,
+        reserve: 1.0,
+    })
 }
 
 /// A legend for readers: the meaning of a bar and of the mark at the current value.

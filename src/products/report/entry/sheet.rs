@@ -274,10 +274,12 @@ fn given(scene: &Scene, number: usize, units: Units) -> SheetPart {
     SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(scene, number))])
 }
 
-/// Makes the table of the margins, each as a bar with numbers at both ends and the present value.
+/// Makes the table of the margins and of the placement tolerance, each as a bar with numbers at both ends and the
+/// present value.
 fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new("", &["margin", "#from", "bar", "to", "#now"]);
-    for bar in bullet::margin_bars(scene, frame_analysis) {
+    let margins = bullet::margin_bars(scene, frame_analysis);
+    for bar in margins.into_iter().chain(bullet::placement_bar(scene, frame_analysis)) {
         let [from, to, now] = bar.ends_and_present.clone().map(TableCell::from);
         grid.add("", [TableCell::from(bar.name.clone()), from, TableCell::bar(bar), to, now]);
     }
@@ -350,9 +352,9 @@ fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     )
 }
 
-/// Returns the remarks at the end of the main section. They are the placement tolerance, the blocks that may leave, the result of the test for
-/// wedging, if the test was made and did not show that the structure stands without wedging, and the notices of the
-/// analysis.
+/// Returns the remarks at the end of the main section. They are the placement tolerance, the blocks that may leave, the
+/// result of the test for wedging, if the test was made and did not show that the structure stands without wedging, and
+/// the notices of the analysis.
 fn remarks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
     let influence = frame_analysis.vehicle.as_ref();
     let influence = influence.map(|own| format!("Vehicle: {}.", line(&vehicle::sentence(scene, own))));
