@@ -1,7 +1,7 @@
 //! The README's picture that compares drystone with other programs shows the table written by
 //! `tests/bench/peers/peers.py`.
 
-mod growth;
+pub mod growth;
 
 use std::fs;
 use std::path::Path;

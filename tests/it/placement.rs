@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use drystone::analysis::{Options, Placement, PlacementLimit, Verdict};
+use drystone::internals::chart::Point;
 use drystone::result::{Layout, Timing, to_json};
 use drystone::starter::{Doorway, Tower};
 use drystone::{Analysis, Scene};
@@ -13,6 +14,7 @@ use serde_json::{Value, json};
 
 use crate::oracle::balance::Balance;
 use crate::oracle::{number_of, random, touch};
+use crate::peers::growth::{Growth, GrowthLine, growth};
 use crate::random::Random;
 use crate::structure::{block, on_floor, rectangle, scene};
 
@@ -347,4 +349,37 @@ fn exact_programs_confirm_tolerances_of_random_scenes() {
     let gaps: Vec<f64> = (0..count).into_par_iter().filter_map(judge).collect();
     let wide = gaps.iter().filter(|gap| **gap > 0.1).count();
     assert!(gaps.len() as u64 * 5 > count && wide * 10 <= gaps.len(), "{wide} of {} gaps are wide", gaps.len());
+}
+
+/// `UPDATE_SNAPSHOTS=1` draws the picture again.
+#[test]
+fn the_picture_of_the_cost_shows_the_table_of_the_page() {
+    let mut lines: Vec<GrowthLine> = Vec::new();
+    for row in include_str!("../../src/doc/placement.md").lines() {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+        let [name, numbers @ ..] = &cells[..] else { continue };
+        let numbers: Vec<f64> = numbers.iter().filter_map(|cell| cell.parse().ok()).collect();
+        let [blocks, alone, with, ratio] = numbers[..] else { continue };
+        assert!((with / alone / ratio - 1.0).abs() < 0.05, "{row}");
+        let point = Point { x: blocks, y: ratio, wrong: false };
+        match lines.iter_mut().find(|line| line.name == *name) {
+            Some(line) => line.points.push(point),
+            None => lines.push(GrowthLine { name: (*name).to_owned(), is_highlighted: true, points: vec![point] }),
+        }
+    }
+    assert_eq!(lines.iter().map(|line| line.points.len()).collect::<Vec<_>>(), [6, 6, 6]);
+    let chart = Growth {
+        title: "What the placement tolerance costs".into(),
+        x: "blocks".into(),
+        y: "processor time, in multiples of that of check alone".into(),
+        lines,
+        wrong: String::new(),
+    };
+    let drawn = growth(&chart).expect("drawn");
+    let shown = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/placement-cost.svg");
+    if std::env::var_os("UPDATE_SNAPSHOTS").is_some() && std::env::var_os("CI").is_none() {
+        fs::write(&shown, &drawn).expect("writable");
+    }
+    let kept = fs::read_to_string(&shown).expect("in the repository");
+    assert!(kept == drawn, "the picture differs from the table: inspect it, and run once with UPDATE_SNAPSHOTS=1");
 }
