@@ -360,3 +360,56 @@ fn the_program_writes_and_verifies_a_certificate() {
     let (code, text) = run(&["check", "stands.json", "falls.json", "--certificate", "proof.json"]);
     assert!(code == Some(2) && text.contains("one scene"), "{text}");
 }
+
+/// The examples of the page are what the program writes for their scenes, and their exact values follow from it.
+#[test]
+fn the_page_explains_the_certificates_of_its_two_blocks() {
+    let page = include_str!("../../src/doc/certificate.md").replace('−', "-");
+    let frame = |name: &str| {
+        let path = format!("{}/assets/certificate/{name}.json", env!("CARGO_MANIFEST_DIR"));
+        let scene = Scene::from_json(&fs::read_to_string(path).expect("a scene")).expect("valid");
+        let certificate = certificate(&scene, &Options::default());
+        assert!(proved(&certificate.check().expect("checked")).iter().all(|exact| *exact), "{name}");
+        let block = &certificate.bodies[1];
+        (certificate.frames[0].clone(), block.weight, block.loads[0].clone())
+    };
+    let says = |words: String| assert!(page.contains(&words), "{words}");
+
+    let (stands, weight, push) = frame("stands");
+    let contact = &stands.contacts[0];
+    assert_eq!((contact.bodies, contact.points.as_slice()), ([1, 0], [[1.0, 0.0], [0.0, 0.0]].as_slice()));
+    assert_eq!((push.at, contact.friction), ([0.0, 1.0], 0.75));
+    let forces = stands.forces.expect("forces");
+    let [first, second, along] = forces.contacts[0];
+    assert_eq!(forces.order, [(vec![1], vec![0, 1, 2])]);
+    let moments = -0.5 * weight - push.force[0];
+    let exact = [-moments, weight + moments, push.force[0]];
+    for (component, exact) in [first, second, along].into_iter().zip(exact) {
+        assert!((component - exact).abs() < 1e-14, "{component} {exact}");
+    }
+    says(format!("| weight, at (0.5, 0.5) | {weight} | {weight} | 0 | -{weight} | {} |", -0.5 * weight));
+    says(format!("| push, at (0, 1) | {0} | {0} | {0} | 0 | -{0} |", push.force[0]));
+    says(format!("| N₁, at (1, 0) | {first} | {0} | 0 | {0} | {0} |", exact[0]));
+    says(format!("| N₂, at (0, 0) | {second} | {0} | 0 | {0} | 0 |", exact[1]));
+    says(format!("| T | {along} | {0} | -{0} | 0 | 0 |", exact[2]));
+    says(format!("|T| = {} ≤ μ (N₁ + N₂) = {}", exact[2], 0.75 * weight));
+
+    let (falls, weight, push) = frame("falls");
+    let motion = &falls.motion.expect("a motion")[0];
+    let ([x, y], spin) = (motion.velocity, motion.spin);
+    assert_eq!((motion.at, push.at), ([0.5, 0.5], [0.0, 1.0]));
+    says(format!("v = ({x}, {y}) at a = (0.5, 0.5) and\nω = {spin}"));
+    let velocity = |at: [f64; 2]| [x - spin * (at[1] - 0.5), y + spin * (at[0] - 0.5)];
+    let [right, left, top] = [[1.0, 0.0], [0.0, 0.0], [0.0, 1.0]].map(velocity);
+    assert!(right[0] == 0.0 && left[0] == 0.0, "{right:?} {left:?}");
+    let tiny = format!("{:.1}·10⁻¹⁵", 1e15 * right[1]);
+    says(format!("| right corner (1, 0) | (0, {tiny}) | n·u = {tiny} ≥ μ"));
+    says(format!("| left corner (0, 0) | (0, {0:.4}) | n·u = {0:.4} ≥ μ", left[1]));
+    says(format!("| weight, at (0.5, 0.5) | ({x:.4}, {y:.4}) | -{weight} · {y:.4} = {:.4} |", -weight * y));
+    let driven = push.force[0] * top[0];
+    says(format!(
+        "| push, at (0, 1) | ({:.4}, {:.4}) | {} · {:.4} = {driven:.4} |",
+        top[0], top[1], push.force[0], top[0]
+    ));
+    says(format!("| sum of the powers | | {:.4} > 0 |", driven - weight * y));
+}
