@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import html
 import json
 import os
@@ -191,6 +192,15 @@ class Result(_Answer):
         """Returns the result of ``drystone check --json`` as a dict. ``timing=False`` leaves out solving times."""
         made: dict[str, Any] = json.loads(self._native.to_json(self._path, timing, False))
         return made
+
+    def certificate(self) -> str:
+        """Returns the JSON that ``drystone check --certificate`` writes: proofs that anybody can check exactly.
+
+        It proves the verdicts, and the margins and the capacity if they were computed. It contains the hash of the scene
+        file that ``scene.save`` writes, or none if the result comes from a session.
+        """
+        text = "" if self._scene is None else self._scene.to_json()
+        return self._native.certificate(hashlib.sha256(text.encode()).hexdigest() if text else "")
 
     def report(self, path: str | os.PathLike[str], *, title: str | None = None, theme: str | None = None) -> None:
         """Writes a report on the scene to a ``.html``, ``.pdf``, ``.md`` or ``.json`` file."""

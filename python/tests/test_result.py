@@ -37,6 +37,17 @@ def test_sensitivities_are_those_of_the_program(steps):
         ds.check(path, sensitivity="robots")
 
 
+def test_certificates_are_those_of_the_program(steps, tmp_path):
+    path, proof, scene = ROOT / "assets/starter.json", tmp_path / "proof.json", tmp_path / "scene.json"
+    program("check", "--margins", "--certificate", proof, path)
+    assert ds.check(path, margins=True).certificate() == proof.read_text(encoding="utf-8")
+    steps.save(scene)
+    proof.write_text(ds.check(steps).certificate(), encoding="utf-8")
+    assert program("verify", proof, scene).stdout.count("exactly") == 3
+    session = ds.Session(ROOT / "assets/certificate/stands.json")
+    assert json.loads(session.check().certificate())["scene_sha256"] == ""
+
+
 def test_attributes_mirror_the_result(steps):
     result = ds.check(steps)
     found = result.to_dict()

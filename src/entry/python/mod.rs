@@ -20,6 +20,7 @@ use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIter
 use crate::entry::cli;
 use crate::entry::request::{CheckArgs, Refused, read_json};
 use crate::mechanics::analysis::{self, Verdict};
+use crate::mechanics::certificate::Certificate;
 use crate::mechanics::scene::format::{SceneFile, parsed};
 use crate::mechanics::scene::{Scene, SceneError, isolate};
 use crate::pictures::drawing::Theme;
@@ -110,6 +111,11 @@ impl Analysis {
             Some(file) => result::to_json_of(file, &self.analysis, timing, layout),
             None => result::to_json(&self.analysis, timing, layout),
         })
+    }
+
+    /// Returns the certificate that `check --certificate` writes; `hash` is the SHA-256 of the scene file.
+    fn certificate(&self, py: Python<'_>, hash: String) -> String {
+        py.detach(|| Certificate::new(&mut (*self.analysis).clone(), hash).to_json())
     }
 
     /// Returns the table `contacts`, `robots`, `failures` or `blocks`, for the frame with the index `frame`, or for all
