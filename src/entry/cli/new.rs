@@ -183,7 +183,9 @@ impl New {
         let shown = path.display();
         let existing = if self.force { Existing::Replace } else { Existing::Keep };
         destination::write(&[(path.to_owned(), text.as_bytes().to_vec())], existing)?;
-        terminal.note(&format!("wrote {shown}; see what it does with: drystone render {shown} -o scene.svg"));
+        let picture = path.with_extension("svg");
+        terminal
+            .note(&format!("wrote {shown}; see what it does with: drystone render {shown} -o {}", picture.display()));
         Ok(())
     }
 }

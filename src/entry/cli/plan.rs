@@ -68,7 +68,11 @@ impl Plan {
             Some(path) => {
                 let existing = if self.force { Existing::Replace } else { Existing::Keep };
                 destination::write(&[(path.to_owned(), written.into_bytes())], existing)?;
-                terminal.note(&format!("wrote {0}; draw it with: drystone render {0} --kind build", path.display()));
+                let (scene, picture) = (path.display(), path.with_extension("svg"));
+                terminal.note(&format!(
+                    "wrote {scene}; draw it with: drystone render {scene} --kind build -o {}",
+                    picture.display()
+                ));
             }
             None => terminal.print_bytes(written.as_bytes())?,
         }

@@ -167,6 +167,9 @@ fn sorted(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), CliError> {
     Ok((all, foreign))
 }
 
+/// The extensions of drawings, which only `import` reads.
+const DRAWINGS: [&str; 3] = ["dxf", "svg", "wkt"];
+
 /// Reads a file, or standard input for `-`.
 pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, CliError> {
     let read = if path == Path::new("-") {
@@ -181,6 +184,11 @@ pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, CliError> {
 /// Reads a scene file, or the one that a PNG or a PDF carries.
 pub(crate) fn scene_bytes(path: &Path) -> Result<Vec<u8>, CliError> {
     let bytes = bytes(path)?;
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if DRAWINGS.contains(&extension.as_str()) && !bytes.trim_ascii_start().starts_with(b"{") {
+        let shown = name(path);
+        return Err(format!("{shown} is a drawing: drystone import {shown} -o scene.json makes a scene of it").into());
+    }
     if is_picture(&bytes) { carried(path, &bytes) } else { Ok(bytes) }
 }
 

@@ -6,8 +6,8 @@ use clap::builder::styling::{AnsiColor, Style};
 
 use crate::entry::cli::page::{Page, broken, seen};
 use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
-use crate::mechanics::scene::Scene;
 use crate::mechanics::scene::format::Expectation;
+use crate::mechanics::scene::{Limits, Scene};
 use crate::products::result::Timing;
 use crate::products::wording::number::{duration, letter, quantity, tenths};
 use crate::products::wording::thrust::thrust_range;
@@ -253,6 +253,11 @@ fn label(scene: &Scene, number: usize, title: &str) -> String {
     }
 }
 
+/// True if a robot has no limit of which it could use a part.
+fn is_free(limits: &Limits) -> bool {
+    limits.fx.is_infinite() && limits.fy.is_infinite() && (limits.torque.is_infinite() || limits.torque == 0.0)
+}
+
 /// Returns the cells of the row of a frame, in the order of [`COLUMN_HEADS`].
 fn row(scene: &Scene, number: usize, label: String, frame: &FrameAnalysis) -> Vec<String> {
     // The forces of a frame that falls are balanced only together with the missing forces, and the forces of an
@@ -262,6 +267,7 @@ fn row(scene: &Scene, number: usize, label: String, frame: &FrameAnalysis) -> Ve
     let robots = match frame.robots.as_slice() {
         _ if !stands => "-".into(),
         [] => "none".into(),
+        robots if robots.iter().all(|r| is_free(&scene.robots[r.robot.0].limits)) => "no limit".into(),
         robots => tenths(robots.iter().map(|r| r.limit_used).fold(0.0, f64::max)),
     };
     let weight = quantity(frame.weight, scene.units.force());

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::entry::{Badge, Chart, Entry, Figure, Grid, MarginBar, Section, SheetPart, TableCell, overview};
 use super::head::{Head, OutputFile, ReportError, sign, slug};
 use crate::pictures::output::svg::{self, Options, Words};
+use crate::products::wording::margin::Position;
 use crate::products::wording::verdict::plain;
 use crate::text::{self, markdown, markdown_cell};
 
@@ -171,8 +172,8 @@ impl Writer {
 }
 
 /// Draws a margin as a row of characters. The character `█` covers the values at which the structure stands. The
-/// current value is a disc if the structure is known to stand there, and a cross otherwise. Of several current values,
-/// the least is drawn.
+/// current value is a disc if the structure is known to stand there, a cross if it falls there, and a ring if neither is
+/// known. Of several current values, the least is drawn.
 fn drawn(bar: &MarginBar) -> String {
     let place = |value: f64| {
         let share = bar.share(value);
@@ -184,7 +185,11 @@ fn drawn(bar: &MarginBar) -> String {
         cells[place(from)..=place(to)].fill('█');
     }
     if let Some((least, _)) = bar.now {
-        cells[place(least)] = if bar.is_inside() { '●' } else { '✗' };
+        cells[place(least)] = match bar.position {
+            Position::Inside => '●',
+            Position::Outside => '✗',
+            Position::Unknown => '○',
+        };
     }
     cells.iter().collect()
 }

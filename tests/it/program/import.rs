@@ -116,6 +116,11 @@ fn a_refused_drawing_writes_nothing_and_ends_with_2() {
     assert!(bench.made().contains(&"broken.svg".to_owned()));
     let nowhere = bench.run("import drawing.svg -o nowhere/scene.json");
     assert_eq!(nowhere.code, 4, "{}", nowhere.err);
+
+    // Other commands name the one that reads it.
+    let ran = bench.run("check drawing.svg");
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("drystone import drawing.svg -o scene.json"), "{}", ran.err);
 }
 
 #[test]

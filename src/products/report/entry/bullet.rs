@@ -123,11 +123,6 @@ impl MarginBar {
         let share = if high > low { (value - low) / (high - low) } else { 0.0 };
         if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
     }
-
-    /// True if the current value is inside the interval of values at which the structure stands.
-    pub(crate) fn is_inside(&self) -> bool {
-        self.position == Position::Inside
-    }
 }
 
 /// Returns the lower and the upper end of the scale. The upper end is 1 for a kernel. For other parameters it is

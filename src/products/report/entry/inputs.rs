@@ -4,12 +4,14 @@ use super::Grid;
 use super::unit::Units;
 use crate::geometry::Vector;
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::mechanics::scene::{BlockId, Limits, Scene};
+use crate::mechanics::scene::{BlockId, Limits, Load, Scene};
 use crate::products::wording::number::{amount, counted, digits, place, quantity, tenths};
-use crate::text::line;
+use crate::text::{first_of, line};
 
 /// Largest number of loads, robots or pairs of materials in a table.
 const MAX_ROWS: usize = 12;
+/// Largest number of blocks that a row names.
+const MAX_NAMED: usize = 3;
 
 /// The lowest and the highest of several values.
 #[derive(Clone, Copy)]
@@ -121,9 +123,20 @@ pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
         vec!["load on".to_owned(), metres.head("x"), metres.head("y"), newtons.head("force"), "direction".to_owned()];
     heads.extend(turns.then(|| torques.head("torque")));
     let mut grid = Grid::new("", &heads);
+    let name = |block: BlockId| line(&scene.blocks[block.0].id);
+    // A pressure acts on several blocks; the row gives its resultant.
+    let target = |load: &Load| {
+        let parts = scene.loads.iter().filter(|part| part.entry == load.entry && placed.contains(&part.block));
+        let mut blocks: Vec<BlockId> = parts.map(|part| part.block).collect();
+        blocks.dedup();
+        match load.spread {
+            Some(_) => format!("pressure on {}", first_of(blocks.into_iter().map(name), MAX_NAMED)),
+            None => name(load.block),
+        }
+    };
     for load in loads.iter().take(MAX_ROWS) {
         let mut cells = vec![
-            line(&scene.blocks[load.block.0].id),
+            target(load),
             metres.write(load.at.x),
             metres.write(load.at.y),
             newtons.write(load.force.norm()),

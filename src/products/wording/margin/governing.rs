@@ -122,8 +122,13 @@ fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> 
         Parameter::Friction => {
             let (needed, end) = value(low).filter(|(needed, _)| *needed > 0.0)?;
             let (least, most) = friction(found)?;
-            let has = if least < most { format!("{}–{}", digits(least), digits(most)) } else { digits(least) };
-            Some((format!("needs friction {} of {has}", three_up(needed)), end))
+            let needed = three_up(needed);
+            let words = if least < most {
+                format!("needs friction {needed} of {}–{}, the same at all joints", digits(least), digits(most))
+            } else {
+                format!("needs friction {needed} of {}", digits(least))
+            };
+            Some((words, end))
         }
         Parameter::Kernel => {
             let (kernel, end) = value(high)?;
