@@ -315,14 +315,17 @@ fn has_reference_mark(path: &Path) -> bool {
 
 /// Returns the filter for the text of `--only`, which selects scenes and references by their names; `None` selects all.
 /// If the text equals one of the scene `names`, the filter selects only this scene and its references. Otherwise a text
-/// with `*` is a pattern for names, and any other text must occur in a name.
+/// with `*` is a pattern for names, with their folders or without, and any other text must occur in a name.
 fn filter<'f>(only: Option<&'f str>, names: &[String]) -> impl Fn(&str) -> bool + use<'f> {
     let is_name = names.iter().any(|name| Some(name.as_str()) == only);
     move |name| match only {
         None => true,
         // The name of a reference is the name of its scene, a dot and more.
         Some(scene) if is_name => name.strip_prefix(scene).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
-        Some(pattern) if pattern.contains('*') => matches_pattern(pattern, name),
+        Some(pattern) if pattern.contains('*') => {
+            let file = name.rsplit('/').next().unwrap_or_default();
+            [name, file].iter().any(|name| matches_pattern(pattern, name))
+        }
         Some(part) => name.contains(part),
     }
 }

@@ -374,6 +374,11 @@ fn build_scene(
         draft.notes.push(format!("edges within {} m of each other are moved so that they touch", scale::short(gap)));
     }
     let scene = scene_file::scene(&outlines, &names, &mut draft, title, [size, gap], &options.scene);
+    if scene.thickness.is_none() {
+        draft
+            .notes
+            .push("the blocks are 1 m thick perpendicular to the plane; --thickness sets another value".to_owned());
+    }
     match trial::checked(&scene.to_json()) {
         Ok(read) => {
             draft.notes.extend(trial.lonely(&read, &outlines));
