@@ -254,7 +254,7 @@ fn both_sides_of_margins_and_capacities_are_exact() {
 fn changed_frames_need_every_contact_and_no_block_counts_twice() {
     let right = certificate(&Scene::from_json(ROBOT).expect("a scene"), &Options::default().margins(true));
     let (mut bare, mut twice) = (right.clone(), right.clone());
-    // The joint of the two blocks is left out; the other one is there twice.
+    // Replace the contact between the two blocks by a copy of the other contact, so that it is missing.
     let contacts = &mut bare.frames[0].contacts;
     let blocks = contacts.iter().position(|contact| contact.bodies == [2, 1]).expect("a joint");
     contacts[blocks] = contacts[1 - blocks].clone();

@@ -63,7 +63,7 @@ pub use strategy::Method;
 const MIN_SHOWN_SPEED: f64 = 1e-7;
 
 /// Components of a velocity that are smaller than this are reported as 0, because they are rounding errors of the
-/// solver. A motion in which the point of a force is slower does not limit this force.
+/// solver. A motion says nothing about a force if the point where the force acts moves more slowly than this.
 pub(super) const SPEED_NOISE: f64 = 1e-9;
 
 /// The verdict on one component, its proof, and all other results. Forces are in the order of its contacts and grips.

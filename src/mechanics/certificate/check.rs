@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use super::fraction::{Number, Rational, Vector, Wrench, eliminate, solve, zero};
+use super::fraction::{Number, Rational, Vector, Wrench, eliminate, solve};
 use super::links::{Link, centroid, grip_wrenches, length_of_normal, sides};
 use super::number::Interval;
 use super::{Certificate, ContactForm, FrameForm, LimitForm, Pair};
@@ -146,7 +146,8 @@ impl Certificate {
                 format!("the radius of {} is not more than 0", body.id)
             });
             let is_forward = |ring: &[Pair]| {
-                sides::<Rational>(ring).map(|[p, q]| p.cross(&q)).fold(zero(), |sum, v| sum + v) > zero()
+                sides::<Rational>(ring).map(|[p, q]| p.cross(&q)).fold(Rational::ZERO, |sum, v| sum + v)
+                    > Rational::ZERO
             };
             let fine = centroid::<Rational>(body).is_some()
                 && (body.circle.is_some() || is_forward(&body.outline))

@@ -24,7 +24,7 @@ impl<N: Number> Vector<N> {
         Vector { x: self.x.times(factor), y: self.y.times(factor) }
     }
 
-    /// The point at this share of the way to another.
+    /// Returns the point on the line to `other`, at the fraction `share` of the distance.
     pub fn toward(&self, other: &Vector<N>, share: &N) -> Vector<N> {
         let along = other.minus(self).times(share);
         Vector { x: self.x.plus(&along.x), y: self.y.plus(&along.y) }
@@ -100,19 +100,6 @@ impl<N: Number> Wrench<N> {
     pub fn entries(&self) -> [&N; 3] {
         [&self.force.x, &self.force.y, &self.moment]
     }
-}
-
-/// The rational number that a double is.
-pub(super) fn exact(value: f64) -> Rational {
-    Number::exact(value)
-}
-
-pub(super) fn zero() -> Rational {
-    Rational::ZERO
-}
-
-pub(super) fn float(value: &Rational) -> f64 {
-    value.float()
 }
 
 pub(super) fn square(value: &Rational) -> Rational {

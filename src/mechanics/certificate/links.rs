@@ -1,6 +1,6 @@
 //! The loads of a body, and what each component of a contact or a grip does to the bodies that it joins, as exact wrenches.
 
-use super::fraction::{Number, Vector, Wrench, float, square_length};
+use super::fraction::{Number, Vector, Wrench, square_length};
 use super::{BodyForm, Certificate, ContactForm, FrameForm, GripForm, LoadForm, Pair};
 
 impl Certificate {
@@ -110,7 +110,7 @@ pub(super) fn ends<N: Number>(contact: &ContactForm) -> [Vector<N>; 2] {
 
 /// The length of the normal, by which components are multiplied to print newtons.
 pub(super) fn length_of_normal(contact: &ContactForm) -> f64 {
-    float(&square_length(&normal_of(contact))).sqrt()
+    square_length(&normal_of(contact)).float().sqrt()
 }
 
 /// The wrenches of a grip's force x, force y and torque.

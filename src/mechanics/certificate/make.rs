@@ -229,7 +229,7 @@ fn pair(point: Point) -> Pair {
     [point.x, point.y]
 }
 
-/// Writes a contact: an edge with its two ends, a corner with its point and a normal.
+/// Writes a contact along an edge with its two ends, and a contact at a corner with its point and its normal.
 fn contact_form(contact: &AssemblyContact, first_block: usize) -> ContactForm {
     let index = |body: BodyId| match body {
         BodyId::Ground(k) => k,

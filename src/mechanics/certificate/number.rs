@@ -3,24 +3,25 @@
 
 pub(super) use dashu_ratio::Relaxed as Rational;
 
-/// A number that is known exactly, or to lie between two bounds. What a method says of it holds for sure.
+/// An exact number, or an interval that contains it. A test such as [`Number::is_positive`] is true only if every number
+/// of the interval passes it.
 pub(super) trait Number: Clone {
-    /// The number that a double is.
+    /// Returns the exact value of a double.
     fn exact(value: f64) -> Self;
     fn plus(&self, other: &Self) -> Self;
     fn minus(&self, other: &Self) -> Self;
     fn times(&self, other: &Self) -> Self;
-    /// The quotient; `None` if the divisor may be 0.
+    /// Returns the quotient; `None` if the divisor is 0, or if its interval contains 0.
     fn over(&self, other: &Self) -> Option<Self>;
     fn magnitude(&self) -> Self;
     fn is_zero(&self) -> bool;
     fn is_at_most_zero(&self) -> bool;
     fn is_positive(&self) -> bool;
-    /// The number, rounded.
+    /// Returns the number rounded to a double; the upper end of an interval.
     fn float(&self) -> f64;
-    /// The same number as a fraction in lowest terms.
+    /// Returns the same number as a fraction in lowest terms; an interval stays as it is.
     fn reduced(&self) -> Self;
-    /// True if every comparison can be decided.
+    /// Whether a test that is false proves the opposite. An interval may be too wide for that.
     const DECIDES: bool;
 
     fn zero() -> Self {
@@ -35,7 +36,7 @@ pub(super) trait Number: Clone {
 impl Number for Rational {
     const DECIDES: bool = true;
 
-    /// JSON has no infinite numbers, and the form has been checked.
+    /// Only finite numbers come here: JSON contains no others.
     fn exact(value: f64) -> Rational {
         Rational::try_from(value).unwrap_or(Rational::ZERO)
     }
@@ -81,7 +82,7 @@ impl Number for Rational {
     }
 }
 
-/// All numbers between two doubles. Each operation rounds outward.
+/// All numbers between two doubles. Each operation makes the interval wide enough for its rounding errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval {
     low: f64,
@@ -92,7 +93,7 @@ impl Interval {
     const ALL: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
     const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
 
-    /// The interval around rounded results.
+    /// Returns an interval that contains the exact values of which these are the rounded ones.
     fn around<const N: usize>(results: [f64; N]) -> Interval {
         if !results.iter().all(|result| result.is_finite()) {
             return Interval::ALL;

@@ -1,7 +1,7 @@
 //! Checks in exact arithmetic that the contacts of a frame are those of its outlines: each lies where it says, and none is
 //! left out.
 
-use super::fraction::{Rational, Vector, exact, float, square, square_length, zero};
+use super::fraction::{Number, Rational, Vector, square, square_length};
 use super::links::{ends, normal_of, sides};
 use super::{BodyForm, Certificate, CircleForm, ContactForm, FrameForm};
 
@@ -13,7 +13,7 @@ impl Certificate {
             return Vec::new();
         }
         let mut faults = Vec::new();
-        let allowed = square(&exact(self.distance));
+        let allowed = square(&Rational::exact(self.distance));
         for contact in &frame.contacts {
             let mut edges_at = Vec::new();
             for (body, sign) in contact.bodies.iter().zip([1, -1]) {
@@ -28,7 +28,7 @@ impl Certificate {
                         None => {
                             let nearest = edges.iter().map(|[a, b]| distance_squared(&at, a, b)).min();
                             let Some(nearest) = nearest else { continue };
-                            (float(&nearest).sqrt(), nearest <= allowed)
+                            (nearest.float().sqrt(), nearest <= allowed)
                         }
                     };
                     *farthest = farthest.max(away);
@@ -53,7 +53,7 @@ impl Certificate {
     /// corners meet, it separates them.
     fn faces(&self, contact: &ContactForm, edges_at: &[(Vec<[Vector; 2]>, i32)]) -> bool {
         let normal = normal_of(contact);
-        let allowed = square(&exact(self.distance));
+        let allowed = square(&Rational::exact(self.distance));
         let middle = Vector::new(contact.points[0]);
         let is_corner = contact.points.len() == 1
             && edges_at.iter().all(|(edges, sign)| separates(&normal, edges, *sign, &middle, &allowed));
@@ -61,7 +61,7 @@ impl Certificate {
             let Some(circle) = self.bodies[*body].circle else { return false };
             let inner = Vector::new(circle.centre).minus(&middle);
             let along = normal.dot(&inner) * Rational::from(sign);
-            along > zero() && square(&normal.cross(&inner)) <= exact(ANGLE_SQUARED) * square(&along)
+            along > Rational::ZERO && square(&normal.cross(&inner)) <= Rational::exact(ANGLE_SQUARED) * square(&along)
         });
         is_corner
             || faces_circle
@@ -71,8 +71,8 @@ impl Certificate {
                     let along = normal.dot(&inner) * Rational::from(*sign);
                     let across = square(&normal.cross(&inner));
                     // An edge shorter than the distance bounds no angle; tan² = (10⁻³)² for the others.
-                    along > zero()
-                        && across <= exact(ANGLE_SQUARED) * square(&along)
+                    along > Rational::ZERO
+                        && across <= Rational::exact(ANGLE_SQUARED) * square(&along)
                         && distance_squared(&middle, a, b) <= allowed
                 })
             })
@@ -85,9 +85,9 @@ impl Certificate {
     /// same edges that are farther apart than the shortest joint do.
     fn missing_contacts(&self, frame: &FrameForm) -> Vec<String> {
         let mut faults = Vec::new();
-        let allowed = square(&exact(self.distance));
-        let covered = square(&exact(2.0 * self.distance + self.shortest));
-        let shortest = square(&exact(self.shortest + 2.0 * self.distance));
+        let allowed = square(&Rational::exact(self.distance));
+        let covered = square(&Rational::exact(2.0 * self.distance + self.shortest));
+        let shortest = square(&Rational::exact(self.shortest + 2.0 * self.distance));
         let ground = (0..self.bodies.len()).filter(|index| self.bodies[*index].ground);
         let present: Vec<usize> = ground.chain(frame.placed.iter().copied()).collect();
         for (k, one) in present.iter().enumerate() {
@@ -128,11 +128,11 @@ impl Certificate {
 
     /// Returns the distance of a point from a circle in metres, rounded, and whether it is at most the stated distance.
     fn at_circle(&self, at: &Vector, circle: CircleForm) -> (f64, bool) {
-        let (radius, distance) = (exact(circle.radius), exact(self.distance));
+        let (radius, distance) = (Rational::exact(circle.radius), Rational::exact(self.distance));
         let away = square_length(&at.minus(&Vector::new(circle.centre)));
         let is_near =
             away <= square(&(&radius + &distance)) && (radius < distance || away >= square(&(&radius - &distance)));
-        ((float(&away).sqrt() - circle.radius).abs(), is_near)
+        ((away.float().sqrt() - circle.radius).abs(), is_near)
     }
 
     /// True if two bodies, of which at least one is a circle, touch where they have no contact.
@@ -140,24 +140,26 @@ impl Certificate {
     /// The foot of a circle on an edge must lie at a contact. Beside a contact, an edge leaves the circle slowly: at a
     /// chord whose square is 4 r d, the gap is twice the distance d.
     fn circles_touch(&self, bodies: [&BodyForm; 2], edges: &[Vec<[Vector; 2]>; 2], spans: &[[Vector; 2]]) -> bool {
-        let distance = exact(self.distance);
+        let distance = Rational::exact(self.distance);
         if let [Some(one), Some(other)] = bodies.map(|body| body.circle) {
             let away = square_length(&Vector::new(one.centre).minus(&Vector::new(other.centre)));
-            return spans.is_empty() && away <= square(&(exact(one.radius) + exact(other.radius) + distance));
+            return spans.is_empty()
+                && away <= square(&(Rational::exact(one.radius) + Rational::exact(other.radius) + distance));
         }
         (0..2).any(|k| {
             let Some(circle) = bodies[k].circle else { return false };
-            let (centre, radius) = (Vector::new(circle.centre), exact(circle.radius));
+            let (centre, radius) = (Vector::new(circle.centre), Rational::exact(circle.radius));
             let reach = square(&(&radius + &distance));
-            let covered = square(&exact(2.0 * self.distance + self.shortest)) + Rational::from(4) * &radius * &distance;
+            let covered =
+                square(&Rational::exact(2.0 * self.distance + self.shortest)) + Rational::from(4) * &radius * &distance;
             edges[1 - k].iter().any(|[a, b]| {
                 let along = b.minus(a);
                 let (length, place) = (square_length(&along), along.dot(&centre.minus(a)));
-                let is_end = place < zero() || place > length;
+                let is_end = place < Rational::ZERO || place > length;
                 if (is_end && !self.corners_carry) || distance_squared(&centre, a, b) > reach {
                     return false;
                 }
-                let share = if place < zero() { zero() } else { place.min(length.clone()) } / length;
+                let share = if place < Rational::ZERO { Rational::ZERO } else { place.min(length.clone()) } / length;
                 let foot = Vector { x: &a.x + along.x * &share, y: &a.y + along.y * &share };
                 spans.iter().all(|[p, _]| square_length(&foot.minus(p)) > covered)
             })
@@ -174,7 +176,7 @@ fn separates(normal: &Vector, edges: &[[Vector; 2]], sign: i32, at: &Vector, all
     ways.len() == 2
         && ways.iter().all(|way| {
             let along = normal.dot(way) * Rational::from(sign);
-            along >= zero() || square(&along) <= exact(ANGLE_SQUARED) * square(&normal.cross(way))
+            along >= Rational::ZERO || square(&along) <= Rational::exact(ANGLE_SQUARED) * square(&normal.cross(way))
         })
 }
 
@@ -191,7 +193,7 @@ fn edges(body: &BodyForm) -> Vec<[Vector; 2]> {
 fn distance_squared(at: &Vector, a: &Vector, b: &Vector) -> Rational {
     let (along, from) = (b.minus(a), at.minus(a));
     let (length, place) = (square_length(&along), along.dot(&from));
-    if place <= zero() {
+    if place <= Rational::ZERO {
         square_length(&from)
     } else if place >= length {
         square_length(&at.minus(b))

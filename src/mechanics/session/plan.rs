@@ -28,7 +28,7 @@ pub enum PlanError {
     #[error("{0}")]
     SceneError(#[from] SceneError),
     /// The finished structure is not proved to stand without robots.
-    #[error("the finished structure {} without robots{fastest}, so no order of its blocks can end with it", verdict.verb())]
+    #[error("the finished structure {} without robots{fastest}; an order of building exists only for a structure that stands", verdict.verb())]
     Finished {
         /// Whether it falls or is undecided.
         verdict: Verdict,

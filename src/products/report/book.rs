@@ -1,5 +1,5 @@
-//! Draws the scenes in Markdown: [`illustrate`] is an mdBook preprocessor, which puts figures into the chapters of a book,
-//! and [`illustrate_text`] writes figures of one text as files.
+//! Draws figures of the scenes in Markdown texts: [`illustrate`] is a preprocessor of mdBook, and [`illustrate_text`]
+//! writes the figures of one text as files.
 //!
 //! A fenced code block with the language `drystone` contains a scene, or names a scene file with `file=…`. A figure with a
 //! caption replaces the block. Options follow the word `drystone`, as `name=value` or

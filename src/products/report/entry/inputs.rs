@@ -10,7 +10,7 @@ use crate::text::{first_of, line};
 
 /// Largest number of loads, robots or pairs of materials in a table.
 const MAX_ROWS: usize = 12;
-/// Largest number of blocks that a row names.
+/// A row of the table of loads names at most this many blocks.
 const MAX_NAMED: usize = 3;
 
 /// The lowest and the highest of several values.

@@ -286,8 +286,8 @@ fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
     grid
 }
 
-/// Makes the table of the load cases, each with its headline margin as a bar; the worst case is emphasised. Bars of the
-/// same margin have the same scale.
+/// Makes the table of the load cases. Each row has the headline margin of its case as a bar, and the worst case is
+/// emphasised. If all rows show the same margin, their bars have one scale.
 fn cases(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new("", &["load case", "verdict", "margin", "#from", "bar", "to"]);
     let Some(cases) = &frame_analysis.cases else { return grid };
