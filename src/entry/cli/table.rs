@@ -104,12 +104,14 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: &Detail, width: Option
     let scene = &analysis.scene;
     let mut page = Page::default();
     page.styled(Style::new().bold(), name);
-    if !scene.title.is_empty() {
+    let title = heading(&scene.title, MAX_SCENE_TITLE);
+    if !title.is_empty() {
         page.words("  ");
-        page.words(&heading(&scene.title, MAX_SCENE_TITLE));
+        page.words(&title);
     }
     page.end();
-    if !scene.set.is_empty() {
+    // The title ends with the changes, and a long one is cut.
+    if !scene.set.is_empty() && title != scene.title {
         page.line(&format!("  with {}", scene.set.join(", ")));
     }
     let has_robots = analysis.frames.iter().any(|f| !f.robots.is_empty());

@@ -419,8 +419,8 @@ pub(crate) fn collapse(canvas: &mut Canvas<'_>) {
     let at = if governing.at.is_empty() { String::new() } else { format!(" at {}", governing.at) };
     let joints = giving(canvas.scene(), found, governing.mechanism);
     if joints.len() <= MAX_COLLAPSE_MARKS {
-        // A ring below the mark of its force shows on both sides of it.
-        gives::draw(canvas, Layer::Stone, &joints, [format!("hinge{at}"), format!("slides{at}")]);
+        // A force is longer than a ring is wide, so the force still shows on both sides of the ring.
+        gives::draw(canvas, Layer::Symbol, &joints, [format!("hinge{at}"), format!("slides{at}")]);
     }
 }
 

@@ -11,6 +11,9 @@ use crate::pictures::output::file::WriteError;
 /// Largest number of changes of one file that a message lists. All further changes are only counted.
 pub(super) const MAX_LISTED_CHANGES: usize = 12;
 
+/// The same for the files of a scene after the first that changed.
+const MAX_IMPLIED_CHANGES: usize = 3;
+
 /// Returns the folders of the files, sorted and without duplicates.
 pub(crate) fn folders<'f>(files: impl IntoIterator<Item = &'f PathBuf>) -> Vec<PathBuf> {
     let folders = files.into_iter().filter_map(|f| f.parent());
@@ -134,21 +137,30 @@ impl Snapshot {
         folders(&self.references)
     }
 
-    /// Describes the findings of this snapshot, each in one or more lines.
+    /// Describes the findings of this snapshot, each in one or more lines; one line names all new references.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
-        for finding in &self.findings {
+        let (new, others): (Vec<&Finding>, Vec<&Finding>) =
+            self.findings.iter().partition(|finding| finding.state == State::Missing);
+        if !new.is_empty() {
+            let files: Vec<String> = new.iter().map(|finding| shown(&finding.file)).collect();
+            lines.push(format!("  {}: {}", State::Missing.name(), files.join(", ")));
+        }
+        // What changes in the facts explains what changes in the drawing, so of the second only an impression is given.
+        let mut most = MAX_LISTED_CHANGES;
+        for finding in others {
             let head = format!("{} {}, {}", finding.layer.name(), finding.state.name(), shown(&finding.file));
             match finding.words.as_slice() {
                 [one] => lines.push(format!("  {head}: {one}")),
                 several => {
                     lines.push(format!("  {head}:"));
-                    lines.extend(several.iter().take(MAX_LISTED_CHANGES).map(|w| format!("    {w}")));
-                    if several.len() > MAX_LISTED_CHANGES {
-                        lines.push(format!("    … and {} more", several.len() - MAX_LISTED_CHANGES));
+                    lines.extend(several.iter().take(most).map(|w| format!("    {w}")));
+                    if several.len() > most {
+                        lines.push(format!("    … and {} more", several.len() - most));
                     }
                 }
             }
+            most = MAX_IMPLIED_CHANGES;
         }
         lines
     }
@@ -218,16 +230,29 @@ impl CheckOutcome {
         self.snapshots.iter().filter(|s| !s.matches())
     }
 
+    /// Returns the snapshots with findings: changed verdicts first, then other facts, drawings and pixels.
+    pub(super) fn failing_by_importance(&self) -> Vec<&Snapshot> {
+        let is_verdict =
+            |words: &String| ["stable", "unstable", "undecided"].iter().any(|v| words.ends_with(&format!("→ {v}")));
+        let mut failing: Vec<&Snapshot> = self.failing().collect();
+        failing.sort_by_key(|snapshot| {
+            let facts = snapshot.findings.iter().filter(|f| f.layer == Layer::Facts);
+            let has_verdict = facts.flat_map(|f| &f.words).any(is_verdict);
+            (!has_verdict, snapshot.findings.iter().map(|finding| finding.layer).min())
+        });
+        failing
+    }
+
     /// Describes all findings in lines; empty if everything matches.
     pub fn lines(&self) -> Vec<String> {
         let faults = self.fault_descriptions().map(|(path, words)| format!("{}: {words}", shown(path)));
         self.changes().into_iter().chain(faults).collect()
     }
 
-    /// Describes the references that differ and the orphaned references in lines.
+    /// Describes the references that differ, changed verdicts first, and the orphaned references in lines.
     pub(crate) fn changes(&self) -> Vec<String> {
         let mut lines = Vec::new();
-        for snapshot in self.failing() {
+        for snapshot in self.failing_by_importance() {
             lines.push(snapshot.name.clone());
             lines.extend(snapshot.lines());
         }

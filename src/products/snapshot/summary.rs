@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::discovery::shown;
 use super::layer::Layer;
-use super::outcome::{CheckOutcome, Finding, MAX_LISTED_CHANGES, Snapshot};
+use super::outcome::{CheckOutcome, Finding, MAX_LISTED_CHANGES};
 use crate::text::{and_more, markdown_cell};
 
 /// Largest number of snapshots that are described. All further snapshots are only counted, because a comment on GitHub
@@ -27,8 +27,7 @@ pub fn markdown(report: &CheckOutcome, folder: &str) -> (String, Vec<(String, Ve
     for (path, words) in report.others() {
         let _ = write!(out, "\n- **{}**: {}\n", markdown_cell(&shown(path)), markdown_cell(&words));
     }
-    let mut failing: Vec<&Snapshot> = report.failing().collect();
-    failing.sort_by_key(|snapshot| importance(snapshot));
+    let failing = report.failing_by_importance();
     for snapshot in failing.iter().take(MAX_SNAPSHOTS) {
         let _ = write!(out, "\n#### {}\n\n| what | change |\n|---|---|\n", markdown_cell(&snapshot.name));
         let first = snapshot.findings.iter().map(|finding| finding.layer).min();
@@ -68,12 +67,4 @@ pub fn markdown(report: &CheckOutcome, folder: &str) -> (String, Vec<(String, Ve
         let _ = write!(out, "\n…{} that differ.\n", and_more(failing.len() - MAX_SNAPSHOTS));
     }
     (out, pictures)
-}
-
-/// Orders snapshots: changed verdicts first, then other facts, drawings and pixels.
-fn importance(snapshot: &Snapshot) -> (bool, Option<Layer>) {
-    let is_verdict =
-        |words: &String| ["stable", "unstable", "undecided"].iter().any(|v| words.ends_with(&format!("→ {v}")));
-    let has_verdict = snapshot.findings.iter().any(|f| f.layer == Layer::Facts && f.words.iter().any(is_verdict));
-    (!has_verdict, snapshot.findings.iter().map(|finding| finding.layer).min())
 }
