@@ -236,7 +236,7 @@ const NOTHING: Outcome = Outcome {
 fn programs(scene: &Scene) -> Vec<Program> {
     let Some(frame) = scene.frames.first() else { return Vec::new() };
     let found = Interfaces::new(scene);
-    let interfaces = found.in_frame(scene, frame);
+    let interfaces = found.in_frame(frame);
     let (assembly, _) = effect::assemble(&FrameContext { scene, frame, interfaces: &interfaces });
     let parts = assembly.components();
     let loaded = parts.iter().filter(|part| part.heaviest_load() > 0.0);

@@ -108,7 +108,7 @@ fn solve_alone(program: &QuadraticProgram) {
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
-    let (assembly, _) = assemble(&FrameContext { scene, frame, interfaces: &found.in_frame(scene, frame) });
+    let (assembly, _) = assemble(&FrameContext { scene, frame, interfaces: &found.in_frame(frame) });
     let component = assembly.components().remove(0);
     Program::new(&component, Scale::from_assembly(&component))
 }

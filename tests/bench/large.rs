@@ -96,7 +96,7 @@ fn g_draw_as_svg(bencher: Bencher, case: Case) {
 
 fn components(scene: &Scene, found: &Interfaces) -> (Assembly, Vec<Assembly>) {
     let frame = &scene.frames()[0];
-    let interfaces = found.in_frame(scene, frame);
+    let interfaces = found.in_frame(frame);
     let (assembly, _) = assemble(&FrameContext { scene, frame, interfaces: &interfaces });
     let parts = assembly.components();
     (assembly, parts)

@@ -98,6 +98,6 @@ fn program(file: &Value, degrees: f64) -> Program {
     let scene = scene(&file);
     let found = Interfaces::new(&scene);
     let frame = &scene.frames()[0];
-    let (assembly, _) = assemble(&FrameContext { scene: &scene, frame, interfaces: &found.in_frame(&scene, frame) });
+    let (assembly, _) = assemble(&FrameContext { scene: &scene, frame, interfaces: &found.in_frame(frame) });
     Program::new(&assembly, Scale::from_assembly(&assembly))
 }

@@ -90,7 +90,7 @@ fn figure_4_as_a_process(bencher: Bencher) {
 fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
-    let interfaces = found.in_frame(scene, frame);
+    let interfaces = found.in_frame(frame);
     let (assembly, _) = assemble(&FrameContext { scene, frame, interfaces: &interfaces });
     let components = assembly.components();
     assert_eq!(components.len(), 1, "a wall is one component");

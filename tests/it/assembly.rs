@@ -51,7 +51,7 @@ fn scenes() -> Vec<(String, Value)> {
 
 fn assembly_of(scene: &Scene, frame: &Frame) -> (Assembly, Vec<ContactKind>) {
     let found = Interfaces::new(scene);
-    let interfaces = found.in_frame(scene, frame);
+    let interfaces = found.in_frame(frame);
     let situation = FrameContext { scene, frame, interfaces: &interfaces };
     let kinds = interfaces.iter().map(|i| i.kind).collect();
     (assemble(&situation).0, kinds)

@@ -226,7 +226,7 @@ fn the_adhesion_of_a_falling_stack_follows_from_the_balance_above_each_joint() {
 pub fn program(scene: &Scene) -> Program {
     let found = Interfaces::new(scene);
     let frame = &scene.frames()[0];
-    let (assembly, _) = assemble(&FrameContext { scene, frame, interfaces: &found.in_frame(scene, frame) });
+    let (assembly, _) = assemble(&FrameContext { scene, frame, interfaces: &found.in_frame(frame) });
     Program::new(&assembly, Scale::from_assembly(&assembly))
 }
 

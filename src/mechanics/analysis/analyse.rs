@@ -14,7 +14,7 @@ use super::frame::complete_frame;
 use super::frame::{Key, key};
 use super::frame::{SolveReport, Stages};
 use super::gather::{add_component, unloaded_frame};
-use super::margin::{self, ComponentIntervals, Part};
+use super::margin::{self, Intervals, Part};
 use super::placement;
 use super::sensitivity::{self, Sensitivity};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
@@ -35,7 +35,7 @@ const MIN_PARALLEL_COMPONENTS: usize = 17;
 #[derive(Default)]
 pub(super) struct ResultCache {
     findings: BTreeMap<Key, Outcome>,
-    intervals: BTreeMap<Key, ComponentIntervals>,
+    intervals: BTreeMap<Key, Intervals>,
 }
 
 /// A component of a frame, with its key in the cache and the results of its decision.
@@ -58,7 +58,7 @@ pub(super) fn analyse_frames(scene: &Scene, interfaces: &Interfaces, options: &O
     let frames = scene.frames.iter();
     frames
         .map(|frame| {
-            let frame_interfaces = interfaces.in_frame(scene, frame);
+            let frame_interfaces = interfaces.in_frame(frame);
             let context = FrameContext { scene, frame, interfaces: &frame_interfaces };
             let mut analysis = analyse_frame(&context, *options, &mut known);
             analysis.notices.extend(interfaces.notices.iter().cloned());
@@ -197,7 +197,7 @@ fn find_margins(
     analysis: &mut FrameAnalysis,
     solved: &[SolvedComponent],
     options: Options,
-    known: &mut BTreeMap<Key, ComponentIntervals>,
+    known: &mut BTreeMap<Key, Intervals>,
 ) -> Option<usize> {
     let kinds = options.wanted_margins()?;
     let parts = solved.iter().map(|s| Part { component: s.component, key: s.key, findings: s.findings });
@@ -216,13 +216,13 @@ fn find_sensitivity(
     analysis: &FrameAnalysis,
     solved: &[SolvedComponent],
     options: Options,
-    known: &BTreeMap<Key, ComponentIntervals>,
+    known: &BTreeMap<Key, Intervals>,
 ) -> Option<Sensitivity> {
     let kind = options.sensitivity?;
     let intervals = &analysis.margins.as_ref()?.intervals;
     let parts = solved.iter().map(|s| sensitivity::Part {
         component: s.component,
-        interval: known.get(s.key).and_then(|intervals| intervals.interval(kind)),
+        interval: known.get(s.key).and_then(|intervals| intervals.of(kind)),
     });
     let parts: Vec<sensitivity::Part> = parts.collect();
     Some(sensitivity::find(context, &parts, intervals, kind))

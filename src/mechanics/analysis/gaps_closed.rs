@@ -12,7 +12,9 @@ use super::analyse::{analyse, analyse_frames};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
 use crate::geometry::Point;
 use crate::mechanics::scene::{BodyId, Frame, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
-use crate::mechanics::statics::interface::{ContactsByBody, Interface, Interfaces, NearMiss, pinning_stone};
+use crate::mechanics::statics::interface::{
+    ContactsByBody, Interface, Interfaces, MAX_GAP_PER_SIZE, NearMiss, pinning_stone,
+};
 use crate::text::first_of;
 
 /// The largest number of places that a message names.
@@ -26,8 +28,6 @@ const CLOSING_FACTOR: f64 = 1.01;
 /// are measured from the edges. The closing length may therefore have to be the widest gap or overlap times this
 /// factor.
 const CORNER_CLOSING_FACTOR: f64 = 2.5;
-/// Bodies that are meant to touch are at most this fraction of the smallest block's size apart.
-const MAX_SIZE_SHARE: f64 = 0.01;
 
 /// A place where two bodies may have been meant to touch.
 #[derive(Clone, Copy)]
@@ -91,19 +91,12 @@ pub(super) fn recheck(scene: &Scene, interfaces: &Interfaces, frames: &mut [Fram
 fn ambiguous_places(scene: &Scene, interfaces: &Interfaces) -> Vec<Vec<AmbiguousPlace>> {
     let touching = ContactsByBody::new(&interfaces.all);
     let in_frame = |frame: &Frame| {
-        let mut placed = vec![false; scene.blocks.len()];
-        for block in &frame.placed {
-            placed[block.0] = true;
-        }
-        let is_placed = |body: &BodyId| match body {
-            BodyId::Ground(_) => true,
-            BodyId::Block(id) => placed[id.0],
-        };
+        let is_placed = frame.presence();
         // A gap that a pinning stone between the two bodies keeps open is intended, so it is left out.
         let gaps = (interfaces.near_misses.iter())
-            .filter(|gap| gap.bodies.iter().all(is_placed))
-            .filter(|gap| pinning_stone(gap, &touching, is_placed, scene.tolerance.gap).is_none());
-        let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(is_placed));
+            .filter(|gap| gap.bodies.iter().all(&is_placed))
+            .filter(|gap| pinning_stone(gap, &touching, &is_placed, scene.tolerance.gap).is_none());
+        let overlaps = (scene.penetrations.iter()).filter(|o| o.bodies.iter().all(&is_placed));
         gaps.map(AmbiguousPlace::from).chain(overlaps.map(AmbiguousPlace::from)).collect()
     };
     scene.frames.iter().map(in_frame).collect()
@@ -129,7 +122,7 @@ fn closed_verdicts(
     if frames.iter().zip(&all[0].1).zip(places).any(is_unchanged) {
         let sizes = scene.blocks.iter().map(|b| size(&b.body.polygon));
         let smallest = sizes.fold(f64::INFINITY, f64::min);
-        let wider = (CORNER_CLOSING_FACTOR * widest).min(MAX_SIZE_SHARE * smallest);
+        let wider = (CORNER_CLOSING_FACTOR * widest).min(MAX_GAP_PER_SIZE * smallest);
         if wider > CLOSING_FACTOR * widest {
             all.push(closed(wider));
         }
@@ -174,12 +167,9 @@ fn is_undecided(verdict: Verdict) -> bool {
 /// Makes every frame with overlapping bodies undecided: after the deadline, the second verdict cannot be computed.
 fn leave_overlaps_undecided(scene: &Scene, frames: &mut [FrameAnalysis]) {
     for (frame, scene_frame) in frames.iter_mut().zip(&scene.frames) {
-        let placed = |body: &BodyId| match body {
-            BodyId::Ground(_) => true,
-            BodyId::Block(id) => scene_frame.placed.contains(id),
-        };
+        let placed = scene_frame.presence();
         let mut overlaps = scene.penetrations.iter();
-        if !is_undecided(frame.verdict) && overlaps.any(|o| o.bodies.iter().all(placed)) {
+        if !is_undecided(frame.verdict) && overlaps.any(|o| o.bodies.iter().all(&placed)) {
             frame.doubts = vec![UndecidedReason::Late];
             frame.verdict = Verdict::Undecided;
         }
@@ -199,11 +189,8 @@ fn recheck_with_slivers(scene: &Scene, interfaces: &Interfaces, frames: &mut [Fr
         if [frame.verdict, other.verdict] != [Verdict::Unstable, Verdict::Stable] {
             continue;
         }
-        let placed = |body: &BodyId| match body {
-            BodyId::Ground(_) => true,
-            BodyId::Block(id) => scene_frame.placed.contains(id),
-        };
-        let slivers = (interfaces.slivers.iter()).filter(|s| s.bodies.iter().all(placed));
+        let placed = scene_frame.presence();
+        let slivers = (interfaces.slivers.iter()).filter(|s| s.bodies.iter().all(&placed));
         frame.doubts = vec![slivers_reason(scene, &slivers.collect::<Vec<&Interface>>())];
         frame.verdict = Verdict::Undecided;
     }
@@ -242,12 +229,9 @@ pub(super) fn notes(scene: &Scene, interfaces: &Interfaces) -> Vec<Note> {
     let gaps: Vec<&NearMiss> = (interfaces.near_misses.iter())
         .filter(|gap| {
             scene.frames.iter().any(|frame| {
-                let is_placed = |body: &BodyId| match body {
-                    BodyId::Ground(_) => true,
-                    BodyId::Block(id) => frame.placed.contains(id),
-                };
-                gap.bodies.iter().all(is_placed)
-                    && pinning_stone(gap, &touching, is_placed, scene.tolerance.gap).is_none()
+                let is_placed = frame.presence();
+                gap.bodies.iter().all(&is_placed)
+                    && pinning_stone(gap, &touching, &is_placed, scene.tolerance.gap).is_none()
             })
         })
         .take(MAX_NOTED_GAPS + 1)

@@ -4,6 +4,7 @@ use super::decide::{Method, Outcome};
 use super::frame::weaker_proof;
 use super::{Contact, FrameAnalysis, Proof, RobotForce, SolveReport, Stages, Verdict};
 use crate::geometry::Vector;
+use crate::mechanics::proof::Forces;
 use crate::mechanics::scene::Hold;
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect::{EffectReport, FrameContext};
@@ -84,7 +85,8 @@ fn unloaded_robot(hold: &Hold) -> RobotForce {
 
 /// Adds the results of one component to the frame.
 pub(super) fn add_component(analysis: &mut FrameAnalysis, component: &Assembly, findings: &Outcome, kernel: f64) {
-    add_forces(analysis, component, findings, kernel);
+    set_forces(analysis, component, &findings.forces, kernel);
+    analysis.total_force += findings.forces.sum(component.length);
     // The bounds of the components add up, because no force acts between two components. If one bound is unknown,
     // or one component is not stable, the sum is unknown.
     analysis.force_bound = match (analysis.force_bound, findings.force_bound) {
@@ -110,20 +112,18 @@ pub(super) fn add_component(analysis: &mut FrameAnalysis, component: &Assembly, 
     analysis.verdict = analysis.verdict.max(findings.verdict);
 }
 
-/// Sets the forces of one component at its contacts and robots, and adds their magnitudes to `total_force`.
-fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, findings: &Outcome, kernel: f64) {
-    // Set the normal forces, the friction and the resultant of each contact.
-    for (assembled, forces) in component.contacts.iter().zip(&findings.forces.contacts) {
+/// Sets the forces of one component, in newtons, at its contacts and robots, with their resultants and the fractions of
+/// limits that they use.
+pub(super) fn set_forces(analysis: &mut FrameAnalysis, component: &Assembly, forces: &Forces, kernel: f64) {
+    for (assembled, forces) in component.contacts.iter().zip(&forces.contacts) {
         let contact = &mut analysis.contacts[assembled.interface];
         let (normal, friction) = (forces.normal, forces.friction);
         contact.normal_forces = normal;
         contact.friction_force = friction;
         contact.resultant = from_point_forces(&contact.interface, kernel, normal, friction);
         contact.friction_used = friction_used(&contact.interface, normal, friction);
-        analysis.total_force += normal[0] + normal[1] + friction.abs();
     }
-    // Set the force and the torque of each robot, and the largest fraction of its limits that they use.
-    for (grip, held) in component.grips.iter().zip(&findings.forces.grips) {
+    for (grip, held) in component.grips.iter().zip(&forces.grips) {
         let used_fraction = |value: f64, limit: f64| {
             if limit.is_finite() && limit > 0.0 { value.abs() / limit } else { 0.0 }
         };
@@ -134,6 +134,5 @@ fn add_forces(analysis: &mut FrameAnalysis, component: &Assembly, findings: &Out
         robot.limit_used = used_fraction(force.x, limits.fx)
             .max(used_fraction(force.y, limits.fy))
             .max(used_fraction(torque, limits.torque));
-        analysis.total_force += force.x.abs() + force.y.abs() + torque.abs() / component.length;
     }
 }

@@ -9,13 +9,14 @@
 
 use std::collections::BTreeMap;
 
-use super::thrust_states::{cheapest_forces, set_forces};
+use super::gather::set_forces;
+use super::thrust_states::cheapest_forces;
 use super::{FrameAnalysis, Motion, Options, Verdict};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::{BlockId, BodyId, Movement, Scene};
 use crate::mechanics::solve::{DeadlineGuard, Status};
 use crate::mechanics::statics::assembly::Assembly;
-use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::Interfaces;
 
 /// A contact counts as closed up to this fraction of the largest relative velocity of two bodies in contact.
@@ -114,8 +115,7 @@ pub(super) fn add_movements(scene: &Scene, interfaces: &Interfaces, frames: &mut
         if !stands {
             continue;
         }
-        let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(scene, frame) };
-        let components = effect::assemble(&context).0.components();
+        let components = effect::assembly_of(scene, frame, interfaces).components();
         let outcomes = scene.movements.iter().map(|movement| outcome(scene, found, &components, movement));
         let numbered = outcomes.enumerate().map(|(number, outcome)| SupportMovement { number, outcome });
         found.movements = numbered.collect();

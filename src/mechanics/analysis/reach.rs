@@ -13,7 +13,7 @@ use crate::mechanics::proof::{Motion, net_power};
 use crate::mechanics::scene::{BlockId, BodyId, Case, Load, Scene};
 use crate::mechanics::solve::DeadlineGuard;
 use crate::mechanics::statics::assembly::Assembly;
-use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::{Interface, Interfaces};
 use crate::text::Word;
 
@@ -147,9 +147,7 @@ fn states(scene: &Scene, target: Reach, options: Options) -> Vec<State> {
 
 impl State {
     fn new(scene: Scene, weights: f64, options: Options) -> State {
-        let (interfaces, frame) = (Interfaces::new(&scene), &scene.frames[0]);
-        let interfaces = interfaces.in_frame(&scene, frame);
-        let assembly = effect::assemble(&FrameContext { scene: &scene, frame, interfaces: &interfaces }).0;
+        let assembly = effect::assembly_of(&scene, &scene.frames[0], &Interfaces::new(&scene));
         let found = Analysis::with(&scene, &options.only_verdict()).frames.pop();
         let (verdict, motion) =
             found.map_or((Verdict::Undecided, Vec::new()), |found| (found.verdict, found.mechanism));
@@ -342,7 +340,7 @@ fn rounded_up(value: f64) -> f64 {
 /// other corners than those of its two joints.
 fn thickened(scene: &Scene, factor: f64) -> Option<Scene> {
     let interfaces = Interfaces::new(scene);
-    let joints = interfaces.in_frame(scene, &scene.frames[0]);
+    let joints = interfaces.in_frame(&scene.frames[0]);
     let mut changed = scene.clone();
     for block in &scene.frames[0].placed {
         let own: Vec<_> = joints.iter().filter(|joint| joint.bodies.contains(&BodyId::Block(*block))).collect();

@@ -17,7 +17,7 @@ use crate::mechanics::proof::{Motion, net_power};
 use crate::mechanics::scene::{BlockId, Frame, Scene};
 use crate::mechanics::solve::DeadlineGuard;
 use crate::mechanics::statics::assembly::Assembly;
-use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::Interfaces;
 
 /// Whether a block may leave its frame, and which forces of robots are needed.
@@ -81,10 +81,7 @@ pub(super) fn add_removables(scene: &Scene, interfaces: &Interfaces, frames: &mu
 /// flag says that a force is missing because no proof was found.
 fn of_block(rests: &Analysis, interfaces: &Interfaces, number: usize, verdict: Verdict) -> (Removable, bool) {
     let (scene, rest) = (&rests.scene, &rests.frames[number]);
-    let assembly = |number: usize| {
-        let frame = &scene.frames[number];
-        effect::assemble(&FrameContext { scene, frame, interfaces: &interfaces.in_frame(scene, frame) }).0
-    };
+    let assembly = |number: usize| effect::assembly_of(scene, &scene.frames[number], interfaces);
     let whole = scene.frames.len() - 1;
     let block = scene.frames[whole].placed[number];
     let hold = scene.frames[whole].holds.iter().find(|hold| hold.block == block);

@@ -8,16 +8,17 @@
 
 use std::collections::BTreeSet;
 
+use super::decide::proved_forces;
+use super::gather::set_forces;
 use super::{Analysis, Contact, FrameAnalysis, Motion, Options, Verdict};
 use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::program::{Column, Force, Program, Scale, columns};
-use crate::mechanics::proof::{self, ContactForces, Forces, GripForces, Proof};
+use crate::mechanics::proof::{Forces, motions_of};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::mechanics::solve::{Amounts, Conditioning, Effort, Status, dual};
 use crate::mechanics::statics::assembly::Assembly;
-use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::Interfaces;
-use crate::mechanics::statics::resultant::{friction_used, from_point_forces};
 
 /// The supports have different horizontal forces if loads and robots push with more than this fraction of the weight.
 /// The value is below the three digits with which a thrust is written.
@@ -30,8 +31,6 @@ const MAX_BLOCKS: usize = 200;
 const NO_THRUST: f64 = 1e-3;
 /// The weight of the sum of forces in the objective. It selects the least sum among forces with the same thrust.
 const PRICE_OF_FORCE: f64 = 1e-6;
-/// The largest imbalance of a block that is accepted for the forces of a state, as defined in [`proof::imbalances`].
-const BALANCE_TOL: f64 = 1e-6;
 /// The most central forces are computed for the largest kernel, reduced by this fraction. At the largest kernel
 /// itself the frame is exactly at its limit of stability.
 const WITHIN_KERNEL: f64 = 1e-4;
@@ -109,9 +108,7 @@ impl Analysis {
     fn extreme(&self, number: usize, sign: f64) -> Option<ThrustState> {
         let scene = &**self.scene_of(number);
         let frame = &scene.frames[number];
-        let interfaces = Interfaces::new(scene);
-        let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(scene, frame) };
-        let (assembly, _) = effect::assemble(&context);
+        let assembly = effect::assembly_of(scene, frame, &Interfaces::new(scene));
         let mut state = self.frames[number].clone();
         for component in assembly.components() {
             let forces = extreme_forces(scene, &component, sign)?;
@@ -209,46 +206,7 @@ pub(super) fn cheapest_forces(
     for (column, amount) in columns.iter().zip(&solved.amounts) {
         amounts.add(column.force, *amount);
     }
-    let forces = in_newtons(component, &program, &amounts);
-    let bodies = component.bodies.iter().zip(solved.y.chunks_exact(3));
-    let motions = bodies.map(|(body, y)| Motion {
-        block: body.block,
-        velocity: -Vector::new(y[0], y[1]),
-        spin: -y[2] / program.scale.length,
-    });
-    match proof::check_forces(component, &forces) {
-        Proof::Forces { worst_imbalance, .. } if worst_imbalance <= BALANCE_TOL => Ok((forces, motions.collect())),
-        _ => Err(Status::Unsolved),
-    }
-}
-
-/// Converts forces from program units to newtons. Replaces negative normal forces by 0, and limits friction to μN.
-fn in_newtons(component: &Assembly, program: &Program, amounts: &Amounts) -> Forces {
-    let unit = program.scale.force;
-    let contacts = component.contacts.iter().enumerate().map(|(k, contact)| {
-        let normal = amounts.normal[k].map(|v| (v * unit).max(0.0));
-        let friction_limit = contact.friction * (normal[0] + normal[1]);
-        ContactForces { normal, friction: (amounts.friction[k] * unit).clamp(-friction_limit, friction_limit) }
-    });
-    let grips = amounts.grip.iter().map(|[x, y, moment]| GripForces {
-        force: Vector::new(x * unit, y * unit),
-        torque: moment * unit * program.scale.length,
-    });
-    Forces { contacts: contacts.collect(), grips: grips.collect() }
-}
-
-/// Copies the forces of a component, in newtons, to the contacts and robots of a frame, and computes their resultants.
-pub(super) fn set_forces(state: &mut FrameAnalysis, component: &Assembly, forces: &Forces, kernel: f64) {
-    for (assembled, forces) in component.contacts.iter().zip(&forces.contacts) {
-        let contact = &mut state.contacts[assembled.interface];
-        let (normal, friction) = (forces.normal, forces.friction);
-        contact.normal_forces = normal;
-        contact.friction_force = friction;
-        contact.resultant = from_point_forces(&contact.interface, kernel, normal, friction);
-        contact.friction_used = friction_used(&contact.interface, normal, friction);
-    }
-    for (grip, held) in component.grips.iter().zip(&forces.grips) {
-        let robot = &mut state.robots[grip.hold];
-        (robot.force, robot.torque) = (held.force, held.torque);
-    }
+    let motions = motions_of(component, &solved.y, program.scale.length).into_iter();
+    let motions = motions.map(|own| Motion { velocity: -own.velocity, spin: -own.spin, ..own }).collect();
+    proved_forces(component, &program, &amounts).map(|(forces, _)| (forces, motions)).ok_or(Status::Unsolved)
 }

@@ -9,23 +9,20 @@
 //! linear program; its forces and its mechanism prove the factor like that of a margin.
 
 use super::decide::decided_forces;
-use super::margin::{End, largest_load_factor};
+use super::margin::{END_TOL, End, largest_load_factor};
 use super::{FrameAnalysis, Motion, Options, Verdict};
 use crate::geometry::{Edge, Point, Vector, quarter_turn};
 use crate::mechanics::proof::Forces;
 use crate::mechanics::scene::{BlockId, Frame, Scene, Vehicle};
 use crate::mechanics::solve::DeadlineGuard;
 use crate::mechanics::statics::assembly::{Assembly, load_about};
-use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::Interfaces;
 
 /// More positions than this are not analysed.
 const MAX_POSITIONS: usize = 5000;
 /// Two ends of edges this close to each other, relative to the length of the track, are one point.
 const SAME_PLACE: f64 = 1e-9;
-
-/// Factors this close to each other, relative to their size, are equal up to the accuracy of a margin.
-const SAME_FACTOR: f64 = 1e-6;
 
 /// The largest load factor for each position of a vehicle. The factor multiplies the weight of the vehicle and all listed
 /// loads, like the load factor of a margin.
@@ -59,9 +56,8 @@ pub(super) fn add_influence(scene: &Scene, interfaces: &Interfaces, frames: &mut
     let Some(vehicle) = scene.vehicle.as_ref().filter(|_| !options.verdict_only) else { return };
     let _until = DeadlineGuard::new(options.deadline);
     for (frame, found) in scene.frames.iter().zip(frames) {
-        let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(scene, frame) };
         let stands = found.verdict == Verdict::Stable;
-        found.vehicle = if stands { influence(&context, vehicle) } else { None };
+        found.vehicle = if stands { influence(scene, frame, interfaces, vehicle) } else { None };
         let positions = found.vehicle.as_ref().map(|influence| influence.positions.len());
         found.effects.push(effect::vehicle::report(stands, positions));
     }
@@ -69,12 +65,11 @@ pub(super) fn add_influence(scene: &Scene, interfaces: &Interfaces, frames: &mut
 
 /// Returns the influence line of a frame. `None` if it does not stand without its loads, if no position is on the track,
 /// or if there are too many positions.
-fn influence(context: &FrameContext, vehicle: &Vehicle) -> Option<Influence> {
-    let scene = context.scene;
-    let components = effect::assemble(context).0.components();
+fn influence(scene: &Scene, frame: &Frame, interfaces: &Interfaces, vehicle: &Vehicle) -> Option<Influence> {
+    let components = effect::assembly_of(scene, frame, interfaces).components();
     let unloaded = components.iter().map(|own| Some(decided_forces(&own.clone().with_load_factor(0.0))?.0));
     let unloaded: Vec<Forces> = unloaded.collect::<Option<_>>()?;
-    let track = track(scene, context.frame, vehicle);
+    let track = track(scene, frame, vehicle);
     let mut positions = positions(scene, vehicle, &track)?;
     // Without an axle, a component has the same factor at every position.
     let pairs = || components.iter().zip(&unloaded);
@@ -92,7 +87,7 @@ fn influence(context: &FrameContext, vehicle: &Vehicle) -> Option<Influence> {
             position.factor = Some(position.factor.map_or(factor, |least| least.min(factor)));
             // Of equal factors, such as those of a symmetric structure, the first governs.
             let least =
-                governing.and_then(|least: (usize, f64)| (least.1 <= factor * (1.0 + SAME_FACTOR)).then_some(least));
+                governing.and_then(|least: (usize, f64)| (least.1 <= factor * (1.0 + END_TOL)).then_some(least));
             if least.is_none() {
                 (governing, mechanism) = (Some((number, factor)), motion);
             }

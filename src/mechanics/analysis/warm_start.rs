@@ -47,7 +47,7 @@ pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
     let frames = scene.frames.iter();
     frames
         .map(|frame| {
-            let interfaces = found.in_frame(scene, frame);
+            let interfaces = found.in_frame(frame);
             warm_start.verdict(scene, frame, &interfaces, options).0
         })
         .collect()

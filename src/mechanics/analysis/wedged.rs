@@ -1,8 +1,8 @@
 //! [`Wedged`]: the proof that a frame stands only by wedging, that is, by a self-stress, in metres and newtons.
 
 use super::Motion;
-use crate::geometry::Vector;
 use crate::mechanics::program::Scale;
+use crate::mechanics::proof::motions_of;
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::wedge::{self, SelfStress, Slide};
 
@@ -69,15 +69,7 @@ pub struct FaceCase {
 impl Wedged {
     /// Converts the proof for one component from program units to metres and newtons.
     pub(super) fn new(assembly: &Assembly, scale: Scale, self_stress: &SelfStress) -> Wedged {
-        let motion = |velocities: &[f64]| {
-            let bodies = assembly.bodies.iter().zip(velocities.chunks_exact(3));
-            let motions = bodies.map(|(body, v)| Motion {
-                block: body.block,
-                velocity: Vector::new(v[0], v[1]),
-                spin: v[2] / scale.length,
-            });
-            motions.collect::<Vec<_>>()
-        };
+        let motion = |velocities: &[f64]| motions_of(assembly, velocities, scale.length);
         let contacts = self_stress.contacts.iter();
         Wedged {
             interfaces: contacts.map(|k| assembly.contacts[*k].interface).collect(),

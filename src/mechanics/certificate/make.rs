@@ -45,7 +45,7 @@ impl Certificate {
         };
         for (number, found) in analysis.frames.iter_mut().enumerate() {
             let frame = &scene.frames[number];
-            let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(scene, frame) };
+            let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(frame) };
             let (assembly, _) = assemble(&context);
             let bare = frame_form(scene, &assembly, number + 1, found.verdict);
             let (proved, faults) = match found.verdict {

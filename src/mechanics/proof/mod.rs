@@ -217,6 +217,18 @@ impl Motion {
     }
 }
 
+/// Returns the motions of the bodies of an assembly from three velocities for each: along x and y, and `length` times the
+/// angular velocity.
+pub fn motions_of(assembly: &Assembly, velocities: &[f64], length: f64) -> Vec<Motion> {
+    let bodies = assembly.bodies.iter().zip(velocities.chunks_exact(3));
+    let motion = |(body, v): (&AssemblyBody, &[f64])| Motion {
+        block: body.block,
+        velocity: Vector::new(v[0], v[1]),
+        spin: v[2] / length,
+    };
+    bodies.map(motion).collect()
+}
+
 /// Returns the speed of the fastest corner of a body.
 pub fn fastest(body: &AssemblyBody, motion: &Motion) -> f64 {
     motion.fastest_of(body.centroid, &body.corners)

@@ -258,3 +258,15 @@ pub struct Frame {
     /// The verdict that the author of the scene expects for this frame; `None` if the file gives none.
     pub expected: Option<Expectation>,
 }
+
+impl Frame {
+    /// Returns a function that says whether a body is present: a placed block, or a part of the ground.
+    pub(in crate::mechanics) fn presence(&self) -> impl Fn(&BodyId) -> bool {
+        let mut placed = vec![false; self.placed.iter().map(|block| block.0 + 1).max().unwrap_or(0)];
+        self.placed.iter().for_each(|block| placed[block.0] = true);
+        move |body| match body {
+            BodyId::Ground(_) => true,
+            BodyId::Block(block) => placed.get(block.0).copied().unwrap_or(false),
+        }
+    }
+}

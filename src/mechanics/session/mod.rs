@@ -290,11 +290,8 @@ impl Session {
             (verdict, Source::Examined)
         } else {
             let frame = &self.scene.frames[0];
-            let interfaces = if self.scene.exact {
-                self.found.all.iter().collect()
-            } else {
-                self.found.in_frame(&self.scene, frame)
-            };
+            let interfaces =
+                if self.scene.exact { self.found.all.iter().collect() } else { self.found.in_frame(frame) };
             self.guess.verdict(&self.scene, frame, &interfaces, &self.options)
         };
         self.verdict

@@ -19,16 +19,14 @@
 
 use super::cone::SAME_DIRECTION;
 use super::refine;
-use super::region::{bounded_polygon, clipped, corners, opposite, set_edges, sides, square};
+use super::region::{RAY_LENGTH_PER_SIZE, axes, corners, half_planes, set_edges, square};
 use super::{CapacityEdge, CapacityError, CapacityShape, CapacityVertex, Cases, LoadCapacity};
-use crate::geometry::{Vector, cross, quarter_turn, sin_cos_degrees};
+use crate::geometry::{Vector, cross, in_half_plane, quarter_turn, sin_cos_degrees};
+use crate::mechanics::analysis::margin::Setting;
 use crate::mechanics::statics::assembly::Assembly;
 
 /// The longest piece into which an arc of tilts is divided, degrees.
 const MAX_ARC_DEGREES: f64 = 1.0;
-
-/// Unbounded sets are cut off at this multiple of the size of the sets.
-const RAY_LENGTH_PER_SIZE: f64 = 1e5;
 
 /// Computes the load capacity in each extreme case with the function `capacity_of_case`, and returns the intersection
 /// of these sets of forces.
@@ -68,21 +66,19 @@ fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, Capacit
     cases.check()?;
     let tilt = cases.tilt.unwrap_or([0.0; 2]);
     let across = cases.horizontal_load.unwrap_or([0.0; 2]);
-    let mut base = assembly.clone();
-    if let Some([least, _]) = cases.friction {
-        base = base.with_friction(least);
-    }
     let mut shares = across.to_vec();
     shares.dedup();
     let mut all = Vec::new();
     for (degrees, strength) in gravities(tilt) {
+        let turned = Setting::tilted(degrees, strength);
         for share in &shares {
-            let (sin, cos) = sin_cos_degrees(degrees);
-            let down = base.pull;
-            let turned = (down * cos + quarter_turn(down) * sin) * strength;
-            let pull = turned + quarter_turn(turned) * *share;
-            let is_given = degrees == 0.0 && *share == 0.0 && strength == 1.0;
-            all.push(if is_given { base.clone() } else { base.clone().with_gravity(pull) });
+            let changed = Setting {
+                friction: cases.friction.map(|[least, _]| least),
+                along: turned.along - turned.across * share,
+                across: turned.across + turned.along * share,
+                ..turned
+            };
+            all.push(changed.apply(assembly));
         }
     }
     Ok(all)
@@ -169,7 +165,7 @@ fn intersect_parallel(planes: &[(Vector, f64)], size: f64) -> Option<(Vec<Vector
 fn intersect_to_polygon(planes: &[(Vector, f64)], centre: Vector, far: f64) -> Option<(Vec<Vector>, Vec<Vector>)> {
     let mut ring = square(centre, 0.5 * far);
     for (normal, limit) in planes {
-        ring = clipped(&ring, *normal, *limit);
+        ring = in_half_plane(&ring, |force| normal.dot(force) - limit);
     }
     let is_far = |force: &&Vector| (*force - centre).amax() > 0.2 * far;
     let near: Vec<Vector> = ring.iter().filter(|f| !is_far(f)).copied().collect();
@@ -193,39 +189,4 @@ fn widest(directions: &mut [Vector]) -> Vec<Vector> {
         (Some(first), _) => vec![*first],
         _ => Vec::new(),
     }
-}
-
-/// Returns half-planes normal · F ≤ limit, as (normal, limit), whose intersection is the convex hull of the corners,
-/// extended along the rays. `slack` is added to each limit. An unbounded set is cut off at a distance of about `far`,
-/// unless it is a half-plane, a strip or a line.
-fn half_planes(corners: &[Vector], rays: &[Vector], far: f64, slack: f64) -> Vec<(Vector, f64)> {
-    let side = |from: Vector, outward: Vector| {
-        let normal = outward.normalize();
-        (normal, normal.dot(&from) + slack)
-    };
-    if opposite(rays).is_some() {
-        let sides = sides(corners, rays, 1.0).into_iter();
-        let sides = sides.map(|(_, from, to)| side(to, -quarter_turn(to - from)));
-        return sides.collect();
-    }
-    match bounded_polygon(corners, rays, far)[..] {
-        [] => Vec::new(),
-        [point] => axes().map(|axis| side(point, axis)).to_vec(),
-        [a, b] => {
-            let along = b - a;
-            let across = quarter_turn(along);
-            vec![side(a, across), side(a, -across), side(a, -along), side(b, along)]
-        }
-        ref ring => (0..ring.len())
-            .map(|k| {
-                let (from, to) = (ring[k], ring[(k + 1) % ring.len()]);
-                side(from, -quarter_turn(to - from))
-            })
-            .collect(),
-    }
-}
-
-/// Returns the four unit vectors along the coordinate axes, anticlockwise from the right.
-fn axes() -> [Vector; 4] {
-    [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(x, y)| Vector::new(x, y))
 }

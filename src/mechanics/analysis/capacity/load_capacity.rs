@@ -175,8 +175,9 @@ impl LoadCapacity {
     /// True if the frame stands with this additional force, in newtons, on the block.
     pub fn contains(&self, force: impl Into<Vector>) -> bool {
         let force = force.into();
-        let corners: Vec<Vector> = self.vertices.iter().map(|v| v.force).collect();
-        region::contains(&corners, &self.rays, force)
+        let (planes, size) = self.half_planes(force.norm());
+        let is_inside = |(normal, limit): &(Vector, f64)| normal.dot(&force) <= limit + 1e-9 * size;
+        self.shape() != CapacityShape::Empty && planes.iter().all(is_inside)
     }
 
     /// Returns the magnitude of the largest force, N, that the block can carry in a unit direction. Infinite if it can
@@ -184,11 +185,21 @@ impl LoadCapacity {
     /// falls without an additional force.
     pub fn reach(&self, direction: impl Into<Vector>) -> Option<f64> {
         let direction = direction.into();
-        if !self.contains(Vector::zeros()) {
-            return None;
-        }
+        let (planes, size) = self.half_planes(f64::MIN_POSITIVE);
+        let along = |(normal, limit): &(Vector, f64)| {
+            let rate = normal.dot(&direction);
+            (rate > region::SAME_DIRECTION).then(|| (limit / rate).max(0.0))
+        };
+        let reach = planes.iter().filter_map(along).fold(f64::INFINITY, f64::min);
+        let far = 0.1 * region::RAY_LENGTH_PER_SIZE * size;
+        self.contains(Vector::zeros()).then_some(if reach > far { f64::INFINITY } else { reach })
+    }
+
+    /// Returns the set as half-planes normal · F ≤ limit, and its size, N, which is at least `size`.
+    fn half_planes(&self, size: f64) -> (Vec<(Vector, f64)>, f64) {
         let corners: Vec<Vector> = self.vertices.iter().map(|v| v.force).collect();
-        Some(region::reach(&corners, &self.rays, direction))
+        let size = corners.iter().map(|f| f.norm()).fold(size, f64::max);
+        (region::half_planes(&corners, &self.rays, region::RAY_LENGTH_PER_SIZE * size, 0.0), size)
     }
 
     /// Returns the indices of `edges`, from the longest edge to the shortest. Unbounded edges come first.

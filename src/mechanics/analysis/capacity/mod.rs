@@ -29,7 +29,7 @@ use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::{Block, BlockId, Scene};
 use crate::mechanics::solve::{DeadlineGuard, is_late};
 use crate::mechanics::statics::assembly::Assembly;
-use crate::mechanics::statics::effect::{self, FrameContext};
+use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::Interfaces;
 pub use load_capacity::{CapacityEdge, CapacityShape, CapacityVertex, LoadCapacity, VertexForce};
 use probe::Probe;
@@ -126,8 +126,7 @@ pub(crate) fn capacity_of(
     if !found.placed.contains(&request.block) {
         return Err(CapacityError::NotPlaced);
     }
-    let context = FrameContext { scene, frame: found, interfaces: &interfaces.in_frame(scene, found) };
-    let (mut assembly, _) = effect::assemble(&context);
+    let mut assembly = effect::assembly_of(scene, found, interfaces);
     // If the additional force replaces the force of a robot, the force limits of this robot are set to 0. Its torque
     // limit stays.
     let tool = request.tool(found);

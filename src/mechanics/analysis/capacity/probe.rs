@@ -7,11 +7,12 @@ use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::decide::{
     SPEED_NOISE, decided_forces, proved_exact_motion, proved_forces, proved_motion,
 };
+use crate::mechanics::analysis::margin::{LimitChange, Setting};
 use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::{Forces, Motion, Proof, check_forces, net_power};
 use crate::mechanics::scene::{Limits, RobotId};
 use crate::mechanics::solve::{Amounts, ForcePolygon, Support, force_polygon, support};
-use crate::mechanics::statics::assembly::{Assembly, AssemblyGrip, LoadVector, load_about};
+use crate::mechanics::statics::assembly::{Assembly, AssemblyGrip, load_about};
 
 /// A motion is proved under a force that lies this far beyond the limit, relative to the size of the force. The power
 /// along the motion is linear in the force, so the proof holds up to the line on which the power is 0.
@@ -20,10 +21,13 @@ const SHARE_BEYOND_LIMIT: f64 = 4e-3;
 /// How far inside the limit forces are tried, relative to the size of the force, if the farthest force has no proof.
 const SHARES_INSIDE_LIMIT: [f64; 4] = [0.0, 1e-9, 1e-8, MAX_SHARE_INSIDE];
 
+/// The tolerance of the refinement, as a fraction of the size of the set.
+pub(super) const RELATIVE_TOL: f64 = 2e-7;
+
 /// The last entry of `SHARES_INSIDE_LIMIT`, which is half of the relative tolerance of the refinement. The farthest force
 /// and the half-plane of its motion also agree if the force lies within this distance of the boundary; otherwise the
 /// program is solved again with full conditioning.
-const MAX_SHARE_INSIDE: f64 = 1e-7;
+const MAX_SHARE_INSIDE: f64 = 0.5 * RELATIVE_TOL;
 
 /// A search for the farthest forces gives up after this many programs and decisions without a proof. Sets that are found
 /// need up to a few tens; a wall of 410 bricks went on for 154 s.
@@ -105,19 +109,14 @@ impl Probe {
     /// without loads may be added to any force that it carries with loads. Finite limits of robots are set to 0;
     /// unlimited robots stay.
     pub fn without_loads(&self) -> Probe {
-        let mut given = self.given.clone();
-        for body in &mut given.bodies {
-            (body.weight, body.load) = (0.0, LoadVector::ZERO);
-            (body.listed, body.fixed) = (LoadVector::ZERO, LoadVector::ZERO);
-        }
-        let or_none = |limit: f64| if limit.is_finite() { 0.0 } else { limit };
-        for grip in &mut given.grips {
-            grip.limits = Limits {
-                fx: or_none(grip.limits.fx),
-                fy: or_none(grip.limits.fy),
-                torque: or_none(grip.limits.torque),
-            };
-        }
+        let unloaded = Setting {
+            along: 0.0,
+            loads: 0.0,
+            has_fixed_loads: false,
+            limits: LimitChange::FiniteToZero,
+            ..Setting::default()
+        };
+        let given = unloaded.apply(&self.given);
         let points = [self.at; 2];
         let count = if self.has_torque { 2 } else { 1 };
         Probe { proves: false, ..Probe::new(&given, self.body, &points[..count]) }

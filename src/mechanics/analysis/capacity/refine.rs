@@ -4,7 +4,7 @@
 //! of their chord decides. If it is not farther than the chord, the chord is an edge; otherwise it is a new vertex.
 //! Reference: Kamenev 1992; Lotov, Bushenkov and Kamenev 2004 (estimate refinement).
 
-use super::probe::{CarriedForce, Farthest, HalfPlane, Probe};
+use super::probe::{CarriedForce, Farthest, HalfPlane, Probe, RELATIVE_TOL};
 use crate::geometry::{Vector, cross};
 
 /// The farthest force in a direction, and the half-plane of the motion that excludes farther forces, if this motion has
@@ -14,9 +14,6 @@ pub(super) struct Sample {
     pub carried: CarriedForce,
     pub half_plane: Option<HalfPlane>,
 }
-
-/// The tolerance of the refinement, as a fraction of the size of the set.
-const RELATIVE_TOL: f64 = 2e-7;
 
 /// The tolerance is at least this fraction of the heaviest load, because the solver is not more accurate.
 const MIN_TOL_PER_LOAD: f64 = 2e-9;

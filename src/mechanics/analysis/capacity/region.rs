@@ -1,15 +1,15 @@
 //! Computes with convex sets of forces in the plane: convex hull, edges, distances and intersection with half-planes.
 
-use super::cone::SAME_DIRECTION;
+pub(super) use super::cone::SAME_DIRECTION;
 use super::probe::{HalfPlane, Probe};
 use super::refine::{self, Sample};
 use super::request::Cases;
 use super::{CapacityEdge, CapacityVertex, LoadCapacity, VertexForce, cone};
-use crate::geometry::{Point, Vector, cross, in_half_plane};
+use crate::geometry::{Point, Vector, cross, in_half_plane, quarter_turn};
 use crate::mechanics::scene::BlockId;
 
 /// Unbounded sets are cut off at this multiple of their size.
-const RAY_LENGTH_PER_SIZE: f64 = 1e4;
+pub(super) const RAY_LENGTH_PER_SIZE: f64 = 1e5;
 
 /// Builds the capacity of a block from samples of its boundary: vertices, edges and error bound.
 pub(super) fn capacity(set: cone::SampledSet, probe: &Probe, block: BlockId, at: &[Point]) -> LoadCapacity {
@@ -222,11 +222,6 @@ pub(super) fn to_segment(point: Vector, a: Vector, b: Vector) -> f64 {
     (point - a - along * share).norm()
 }
 
-/// Returns the part of a convex polygon that lies in the half-plane normal · F ≤ limit.
-pub(super) fn clipped(ring: &[Vector], normal: Vector, limit: f64) -> Vec<Vector> {
-    in_half_plane(ring, |force| normal.dot(force) - limit)
-}
-
 /// Returns the four corners of a square around a force, anticlockwise. `half` is half the length of a side.
 pub(super) fn square(centre: Vector, half: f64) -> Vec<Vector> {
     let corner = |x: f64, y: f64| centre + Vector::new(x, y) * half;
@@ -241,7 +236,7 @@ fn gap(corners: &[Vector], rays: &[Vector], lines: &[CapacityEdge], size: f64) -
     };
     let mut outer = square(*first, 4.0 * size);
     for line in lines {
-        outer = clipped(&outer, line.normal, line.limit);
+        outer = in_half_plane(&outer, |force| line.normal.dot(force) - line.limit);
     }
     let inner = bounded_polygon(corners, rays, 100.0 * size);
     outer.iter().map(|force| distance(&inner, *force)).fold(0.0, f64::max)
@@ -274,48 +269,37 @@ pub(super) fn bounded_polygon(corners: &[Vector], rays: &[Vector], far: f64) -> 
     hull(points).into_iter().map(|p| p.0).collect()
 }
 
-/// True if a force belongs to the convex hull of the corners, extended along the rays.
-pub(super) fn contains(corners: &[Vector], rays: &[Vector], force: Vector) -> bool {
-    if rays.len() > 3 || corners.is_empty() {
-        return rays.len() > 3;
+/// Returns half-planes normal · F ≤ limit, as (normal, limit), whose intersection is the convex hull of the corners,
+/// extended along the rays. `slack` is added to each limit. An unbounded set is cut off at a distance of about `far`,
+/// unless it is a half-plane, a strip or a line.
+pub(super) fn half_planes(corners: &[Vector], rays: &[Vector], far: f64, slack: f64) -> Vec<(Vector, f64)> {
+    let side = |from: Vector, outward: Vector| {
+        let normal = outward.normalize();
+        (normal, normal.dot(&from) + slack)
+    };
+    if opposite(rays).is_some() {
+        let sides = sides(corners, rays, 1.0).into_iter();
+        let sides = sides.map(|(_, from, to)| side(to, -quarter_turn(to - from)));
+        return sides.collect();
     }
-    let extent = corners.iter().map(|f| (f - force).norm());
-    let extent = extent.fold(0.0, f64::max);
-    let ring = bounded_polygon(corners, rays, RAY_LENGTH_PER_SIZE * extent.max(f64::MIN_POSITIVE));
-    distance(&ring, force) <= 1e-9 * extent
+    match bounded_polygon(corners, rays, far)[..] {
+        [] => Vec::new(),
+        [point] => axes().map(|axis| side(point, axis)).to_vec(),
+        [a, b] => {
+            let along = b - a;
+            let across = quarter_turn(along);
+            vec![side(a, across), side(a, -across), side(a, -along), side(b, along)]
+        }
+        ref ring => (0..ring.len())
+            .map(|k| {
+                let (from, to) = (ring[k], ring[(k + 1) % ring.len()]);
+                side(from, -quarter_turn(to - from))
+            })
+            .collect(),
+    }
 }
 
-/// Returns the largest factor by which a unit direction can be multiplied so that it stays in the convex hull of the
-/// corners, extended along the rays. Infinite if there is no limit. The hull must contain 0.
-pub(super) fn reach(corners: &[Vector], rays: &[Vector], direction: Vector) -> f64 {
-    let is_along = |ray: &Vector| (ray - direction).norm() <= SAME_DIRECTION;
-    let is_between = match rays {
-        [first, second] if cross(*first, *second) > SAME_DIRECTION => {
-            cross(*first, direction) >= -SAME_DIRECTION && cross(direction, *second) >= -SAME_DIRECTION
-        }
-        [_, inward, _] => direction.dot(inward) >= -SAME_DIRECTION,
-        _ => rays.len() > 3,
-    };
-    if is_between || rays.iter().any(is_along) {
-        return f64::INFINITY;
-    }
-    let extent = corners.iter().map(|f| f.norm()).fold(f64::MIN_POSITIVE, f64::max);
-    let ring = bounded_polygon(corners, rays, RAY_LENGTH_PER_SIZE * extent);
-    let along = |force: &Vector| force.dot(&direction);
-    if ring.len() < 3 {
-        // The set is a segment or a point, so a force is carried only if it lies along the segment.
-        let [first, last] = [ring.first(), ring.last()].map(|f| f.copied().unwrap_or_default());
-        let chord = last - first;
-        let is_aligned = cross(chord, direction).abs() <= SAME_DIRECTION * chord.norm();
-        let ends = ring.iter().map(along).fold(0.0, f64::max);
-        return if is_aligned { ends } else { 0.0 };
-    }
-    let count = ring.len();
-    let sides = (0..count).map(|k| (ring[k], ring[(k + 1) % count]));
-    let each = sides.filter_map(|(a, b)| {
-        let outward = Vector::new(b.y - a.y, a.x - b.x);
-        let rate = outward.dot(&direction);
-        (rate > 1e-12 * outward.norm()).then(|| (outward.dot(&a) / rate).max(0.0))
-    });
-    each.fold(f64::INFINITY, f64::min)
+/// Returns the four unit vectors along the coordinate axes, anticlockwise from the right.
+pub(super) fn axes() -> [Vector; 4] {
+    [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(x, y)| Vector::new(x, y))
 }

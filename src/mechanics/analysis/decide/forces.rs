@@ -78,14 +78,7 @@ impl Component<'_> {
         let Some(witness) = witness else {
             return (None, false);
         };
-        let bodies = self.assembly.bodies.iter().zip(witness.chunks_exact(3));
-        let motion: Vec<Motion> = bodies
-            .map(|(body, v)| Motion {
-                block: body.block,
-                velocity: Vector::new(v[0], v[1]),
-                spin: v[2] / self.scale.length,
-            })
-            .collect();
+        let motion = proof::motions_of(self.assembly, witness, self.scale.length);
         let bound = proof::force_sum_lower_bound(self.assembly, &motion);
         let sum = forces.sum(self.assembly.length);
         (Some(bound), sum <= (1.0 + SUM_TOL) * bound)
@@ -288,7 +281,7 @@ mod tests {
     use crate::mechanics::analysis::Options;
     use crate::mechanics::program::{Program, Scale};
     use crate::mechanics::scene::Scene;
-    use crate::mechanics::statics::effect::{self, FrameContext};
+    use crate::mechanics::statics::effect;
     use crate::mechanics::statics::interface::Interfaces;
 
     /// A block of 2 N on the ground needs no robot: 2 N suffice. If the robot presses with 2 N, the sum is 6 N.
@@ -300,12 +293,7 @@ mod tests {
                 "robots": [{ "id": "r", "holds": "a" }] }"#,
         )
         .expect("sound");
-        let interfaces = Interfaces::new(&scene);
-        let (assembly, _) = effect::assemble(&FrameContext {
-            scene: &scene,
-            frame: &scene.frames[0],
-            interfaces: &interfaces.in_frame(&scene, &scene.frames[0]),
-        });
+        let assembly = effect::assembly_of(&scene, &scene.frames[0], &Interfaces::new(&scene));
         let component = Component::new(&assembly, Options::default());
         let scale = Scale::from_assembly(&assembly);
         let program = Program::new(&assembly, scale);

@@ -141,7 +141,7 @@ mod tests {
     use crate::mechanics::analysis::Options;
     use crate::mechanics::program::Scale;
     use crate::mechanics::scene::{BlockId, Scene};
-    use crate::mechanics::statics::effect::{self, FrameContext};
+    use crate::mechanics::statics::effect;
     use crate::mechanics::statics::interface::Interfaces;
 
     /// A proved motion that does little work is not a verdict, because forces that no program has computed may
@@ -153,12 +153,7 @@ mod tests {
                 "blocks": [{ "id": "a", "polygon": [[1, 0], [2, 0], [2, 1], [1, 1]], "weight": 1 }] }"#,
         )
         .expect("sound");
-        let interfaces = Interfaces::new(&scene);
-        let (assembly, _) = effect::assemble(&FrameContext {
-            scene: &scene,
-            frame: &scene.frames[0],
-            interfaces: &interfaces.in_frame(&scene, &scene.frames[0]),
-        });
+        let assembly = effect::assembly_of(&scene, &scene.frames[0], &Interfaces::new(&scene));
         let component = Component::new(&assembly, Options::default());
         let program = Program::new(&assembly, Scale::from_assembly(&assembly));
         let motion = Motion { block: BlockId(0), velocity: crate::geometry::Vector::new(1.0, 0.0), spin: 0.0 };

@@ -10,6 +10,7 @@
 
 use std::cmp::Ordering;
 
+use super::kind::MarginKind;
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::RobotId;
 
@@ -79,8 +80,9 @@ impl End {
     }
 }
 
-/// Two ends this close to each other, relative to their size, may be one value.
-const SAME_VALUE: f64 = 1e-9;
+/// Ends that differ by at most this, relative to their size or a typical size of the parameter, differ only by the
+/// rounding of the solver.
+pub(super) const ROUNDING_TOL: f64 = 1e-9;
 
 impl Interval {
     /// All values.
@@ -150,7 +152,7 @@ impl Interval {
         };
         let (least, most) = (low.stands(f64::NEG_INFINITY), high.stands(f64::INFINITY));
         // Two intervals may have only one value in common, so allow for rounding.
-        if least <= most + SAME_VALUE * most.abs() {
+        if least <= most + ROUNDING_TOL * most.abs() {
             return Interval::Between { low, high };
         }
         match (low, high) {
@@ -187,6 +189,21 @@ pub struct Intervals {
     pub notes: Vec<String>,
 }
 
+impl Intervals {
+    /// Returns the interval of the parameter of a margin. `None` if it was not requested, if it has no meaning in the
+    /// scene, or for [`MarginKind::Robots`].
+    pub fn of(&self, kind: MarginKind) -> Option<&Interval> {
+        match kind {
+            MarginKind::Friction => self.friction.as_ref(),
+            MarginKind::Tilt => self.tilt.as_ref(),
+            MarginKind::HorizontalLoad => self.horizontal_load.as_ref(),
+            MarginKind::Kernel => self.kernel.as_ref(),
+            MarginKind::LoadFactor => self.load_factor.as_ref(),
+            MarginKind::Robots => None,
+        }
+    }
+}
+
 /// The values of each limit of a robot at which a frame stands, while all other limits are as in the scene.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -219,6 +236,11 @@ impl Exclusion {
         Exclusion { from: None, to: None, mechanism }
     }
 
+    /// Returns both ends; infinite where the range is unbounded.
+    pub(super) fn ends(&self) -> [f64; 2] {
+        [self.from.unwrap_or(f64::NEG_INFINITY), self.to.unwrap_or(f64::INFINITY)]
+    }
+
     /// Creates the exclusion of all values below `to`, where the frame falls by this motion.
     pub(super) fn below(to: f64, mechanism: Vec<Motion>) -> Exclusion {
         Exclusion { to: Some(to), ..Exclusion::everywhere(mechanism) }
@@ -234,20 +256,16 @@ impl Exclusion {
 /// degrees. Two arcs count as joined if the gap between them is at most `gap(tilt)`, where `tilt` is the end of the
 /// first arc. Returns all arcs if they do not cover a full turn.
 pub(super) fn fewest_arcs(arcs: &[Exclusion], gap: impl Fn(f64) -> f64) -> Vec<Exclusion> {
-    let ends = |arc: &Exclusion| {
-        let [from, to] = [arc.from, arc.to];
-        (from.unwrap_or(f64::NEG_INFINITY), to.unwrap_or(f64::INFINITY))
-    };
-    let first = arcs.iter().map(|arc| ends(arc).0);
+    let first = arcs.iter().map(|arc| arc.ends()[0]);
     let (first, mut kept) = (first.fold(f64::INFINITY, f64::min), Vec::new());
     let mut reached = first;
     while reached < first + 360.0 {
         // Of the arcs that begin within the covered range, choose the arc that ends farthest.
-        let joined = arcs.iter().filter(|arc| ends(arc).0 <= reached + gap(reached));
-        let farthest = joined.max_by(|a, b| ends(a).1.total_cmp(&ends(b).1));
-        match farthest.filter(|arc| ends(arc).1 > reached) {
+        let joined = arcs.iter().filter(|arc| arc.ends()[0] <= reached + gap(reached));
+        let farthest = joined.max_by(|a, b| a.ends()[1].total_cmp(&b.ends()[1]));
+        match farthest.filter(|arc| arc.ends()[1] > reached) {
             Some(arc) => {
-                reached = ends(arc).1;
+                reached = arc.ends()[1];
                 kept.push(arc.clone());
             }
             None => return arcs.to_vec(),

@@ -6,22 +6,21 @@
 //! For each of these parameters, the values at which a frame stands form an [`Interval`]. A frame stands if all its
 //! components stand: its interval is the intersection of theirs.
 //!
-//! [`search`] finds an end from a prediction and confirms it by verdicts. If the forces depend linearly on a parameter,
-//! one linear program gives the prediction ([`mod@linear`]); this includes the limits of robots. For friction and kernel,
-//! Newton's method gives it ([`mod@threshold`]). [`tilt`] and [`nearest_tilt`] find the ends for the rotation of gravity.
+//! [`search`] finds an end from a prediction and confirms it by verdicts, and [`nearest`] finds the first value at which
+//! a frame stands. If the forces depend linearly on a parameter, one linear program gives the prediction
+//! ([`parameter`]); this includes the limits of robots. For friction and kernel, Newton's method gives it
+//! ([`mod@threshold`]).
 //! An end is accepted only if it is proved that the changed frame stands just inside it and falls just beyond it. The
 //! mechanism of an end is the collapse mechanism just beyond it. [`Margins`] are derived from the intervals.
 
 mod interval;
 mod kind;
-mod linear;
 mod margins;
-mod nearest_tilt;
+mod trial;
 mod search;
+mod nearest;
 mod threshold;
 mod parameter;
-mod tilt;
-mod trial;
 
 use std::collections::BTreeMap;
 
@@ -39,8 +38,10 @@ pub use kind::{MarginKind, MarginKinds};
 pub use margins::{Margin, Margins, RobotMargins, Sides};
 pub(super) use parameter::largest_load_factor;
 pub(super) use search::END_TOL;
+use search::Path;
 use trial::Trial;
 pub use trial::trials;
+pub(super) use trial::{LimitChange, Setting};
 
 /// One component whose margins are computed.
 pub(super) struct Part<'a> {
@@ -70,32 +71,6 @@ impl Part<'_> {
     }
 }
 
-/// The intervals of one component. `None` if not requested. The load factor is also `None` for a component without
-/// listed loads, and the tilt if some component of the frame does not stand.
-pub(super) struct ComponentIntervals {
-    friction: Option<Interval>,
-    tilt: Option<Interval>,
-    horizontal_load: Option<Interval>,
-    kernel: Option<Interval>,
-    load_factor: Option<Interval>,
-    robots: Vec<RobotIntervals>,
-}
-
-impl ComponentIntervals {
-    /// Returns the interval of values at which the component stands, for the parameter of a margin. `None` if it was
-    /// not computed, or if the margin is [`MarginKind::Robots`].
-    pub fn interval(&self, kind: MarginKind) -> Option<&Interval> {
-        match kind {
-            MarginKind::Friction => self.friction.as_ref(),
-            MarginKind::Tilt => self.tilt.as_ref(),
-            MarginKind::HorizontalLoad => self.horizontal_load.as_ref(),
-            MarginKind::Kernel => self.kernel.as_ref(),
-            MarginKind::LoadFactor => self.load_factor.as_ref(),
-            MarginKind::Robots => None,
-        }
-    }
-}
-
 /// Computes the margins of a frame from its components. Also returns how many components with changed parameters were
 /// evaluated for this.
 ///
@@ -106,20 +81,20 @@ impl ComponentIntervals {
 pub(super) fn find_margins(
     parts: &[Part],
     kinds: MarginKinds,
-    known: &mut BTreeMap<Key, ComponentIntervals>,
+    known: &mut BTreeMap<Key, Intervals>,
 ) -> (Margins, usize) {
     let all_stand = parts.iter().all(Part::stands);
     let has_tilt = kinds.has(MarginKind::Tilt);
     // Step 1.
     let mut decided_count = find_fresh_intervals(parts, kinds, has_tilt && all_stand, known);
-    let components: Vec<(&Part, &ComponentIntervals)> =
+    let components: Vec<(&Part, &Intervals)> =
         parts.iter().filter_map(|part| Some((part, known.get(part.key)?))).collect();
     // Step 2.
     let mut intervals = intersect(&components, kinds);
     // Step 3.
     if has_tilt && !all_stand {
         let mut trials: Vec<Trial> = parts.iter().map(Part::trial).collect();
-        intervals.tilt = Some(nearest_tilt::nearest_stable_tilts(&mut trials));
+        intervals.tilt = Some(nearest_tilts(&mut trials));
         decided_count += trials.iter().map(|trial| trial.decided_count).sum::<usize>();
     }
     // If loads are listed or a robot has a finite limit, the frame may stand in several separate ranges of tilt. A note
@@ -139,7 +114,7 @@ fn find_fresh_intervals(
     parts: &[Part],
     kinds: MarginKinds,
     with_tilt: bool,
-    known: &mut BTreeMap<Key, ComponentIntervals>,
+    known: &mut BTreeMap<Key, Intervals>,
 ) -> usize {
     let is_known = |key: &Key| {
         let found = known.get(key);
@@ -153,7 +128,7 @@ fn find_fresh_intervals(
     let each = fresh.iter();
     // A deadline guard applies only to the thread that creates it, so each task creates one.
     let deadline = deadline();
-    let fresh_intervals: Vec<(Key, ComponentIntervals, usize)> = each
+    let fresh_intervals: Vec<(Key, Intervals, usize)> = each
         .map(|part| {
             let _guard = DeadlineGuard::new(deadline);
             let mut trial = part.trial();
@@ -169,36 +144,49 @@ fn find_fresh_intervals(
     decided_count
 }
 
-/// Returns the intervals of a frame, which are the intersections of the intervals of its components.
-fn intersect(components: &[(&Part, &ComponentIntervals)], kinds: MarginKinds) -> Intervals {
-    let intersection = |kind: MarginKind, all: Interval, interval: fn(&ComponentIntervals) -> &Option<Interval>| {
-        kinds.has(kind).then(|| {
-            let each = components.iter().filter_map(|(_, intervals)| interval(intervals).clone());
-            each.fold(all, Interval::intersection)
-        })
+/// Returns the interval of tilts at which a frame stands, in degrees, for a frame that does not stand without tilt. If
+/// there are several such intervals, it returns the interval nearest to 0.
+fn nearest_tilts(trials: &mut [Trial]) -> Interval {
+    let Some(path) = trials.first().map(|trial| Path::of(MarginKind::Tilt, trial)) else {
+        return Interval::UNBOUNDED;
     };
+    match path.nearest(trials, 0.0, None) {
+        Err(interval) => interval,
+        Ok(tilt) => {
+            let each = trials.iter_mut().map(|trial| parameter::tilts_around(trial, tilt));
+            each.fold(Interval::UNBOUNDED, Interval::intersection)
+        }
+    }
+}
+
+/// Returns the intervals of a frame, which are the intersections of the intervals of its components.
+fn intersect(components: &[(&Part, &Intervals)], kinds: MarginKinds) -> Intervals {
     let from_zero = || Interval::Between { low: End::natural(0.0), high: End::Unbounded };
-    let mut intervals = Intervals {
-        friction: intersection(MarginKind::Friction, from_zero(), |intervals| &intervals.friction),
-        tilt: intersection(MarginKind::Tilt, Interval::UNBOUNDED, |intervals| &intervals.tilt),
-        horizontal_load: intersection(MarginKind::HorizontalLoad, Interval::UNBOUNDED, |intervals| {
-            &intervals.horizontal_load
-        }),
-        kernel: intersection(MarginKind::Kernel, from_zero(), |intervals| &intervals.kernel),
-        load_factor: None,
+    let intersection = |kind: MarginKind| {
+        let all = if matches!(kind, MarginKind::Tilt | MarginKind::HorizontalLoad) {
+            Interval::UNBOUNDED
+        } else {
+            from_zero()
+        };
+        // The load factor has a meaning only if some component is loaded. A component without loads stands at every
+        // factor or at none.
+        let is_factor = kind == MarginKind::LoadFactor;
+        let has_meaning = !is_factor || components.iter().any(|(_, own)| own.of(kind).is_some());
+        let each = components.iter().filter_map(|(part, own)| match own.of(kind) {
+            None => is_factor.then(|| part.at_present(from_zero())),
+            known => known.cloned(),
+        });
+        (kinds.has(kind) && has_meaning).then(|| each.fold(all, Interval::intersection))
+    };
+    Intervals {
+        friction: intersection(MarginKind::Friction),
+        tilt: intersection(MarginKind::Tilt),
+        horizontal_load: intersection(MarginKind::HorizontalLoad),
+        kernel: intersection(MarginKind::Kernel),
+        load_factor: intersection(MarginKind::LoadFactor),
         robots: robots(components),
         notes: Vec::new(),
-    };
-    // The load factor has a meaning only if some component is loaded. A component without loads stands at every factor
-    // or at none.
-    let is_loaded = |(_, intervals): &(&Part, &ComponentIntervals)| intervals.load_factor.is_some();
-    if components.iter().any(is_loaded) {
-        let loaded = intersection(MarginKind::LoadFactor, from_zero(), |intervals| &intervals.load_factor);
-        let unloaded = components.iter().filter(|component| !is_loaded(component));
-        intervals.load_factor = loaded
-            .map(|loaded| unloaded.fold(loaded, |frame, (part, _)| frame.intersection(part.at_present(from_zero()))));
     }
-    intervals
 }
 
 /// The note on the interval of tilts of frames that may stand in several separate ranges of tilt.
@@ -207,7 +195,7 @@ const ONE_ARC: &str = "tilt: listed loads and robots' limits do not turn with gr
 
 /// Returns the intervals of the limits of all robots. The intervals of a robot are empty if a component that it does
 /// not hold falls, because no limit of this robot prevents that fall.
-fn robots(components: &[(&Part, &ComponentIntervals)]) -> Vec<RobotIntervals> {
+fn robots(components: &[(&Part, &Intervals)]) -> Vec<RobotIntervals> {
     let mut robots = Vec::new();
     for (number, (_, intervals)) in components.iter().enumerate() {
         let others = || components.iter().enumerate().filter(|(k, _)| *k != number);

@@ -3,14 +3,21 @@
 //! 1. A program predicts the end: the *hint*. It also gives forces and a mechanism there, as proofs for verdicts.
 //! 2. Verdicts just inside and just beyond the hint confirm it.
 //! 3. If they do not, the search steps outward until the component falls. Then it narrows the range that contains the
-//!    end: by the last mechanism if this shows where the fall begins ([`Predictor::Plane`]), otherwise by bisection.
+//!    end: to where the last mechanism ceases to prove a fall, if this is known, otherwise by bisection.
 //!
 //! The loads, or the limits of forces, may be linear in the parameter. The power of the loads along a fixed mechanism is
 //! then linear, too: one mechanism shows that a component falls at every value on one side of the value at which this
-//! power vanishes, a cutting plane (Kelley 1960). Friction and the kernel change the mechanisms themselves.
+//! power vanishes, a cutting plane (Kelley 1960). At the tilt θ, the power is A cos θ + B sin θ + C, so that a mechanism
+//! excludes an arc of tilts. Friction and the kernel change the mechanisms themselves.
+//!
+//! Gravity along and across its original direction and the factor on loads form a space in which the component stands in
+//! a convex set. For all parameters but the tilt, the path through this space is straight. Tilts form a circle, which may
+//! leave the set and enter it again, so that the search also shows that the component stands between two stable tilts.
 
-use super::interval::End;
-use super::trial::{Setting, Trial};
+use super::interval::{End, ROUNDING_TOL};
+use super::kind::MarginKind;
+use super::margins::Margins;
+use super::trial::{LimitChange, Setting, Trial};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::decide::LimitDistance;
 use crate::mechanics::proof::{Motion, Proof};
@@ -20,6 +27,8 @@ use crate::mechanics::proof::{Motion, Proof};
 pub(super) enum Predictor {
     /// Loads or limits are linear in the parameter: the mechanism excludes all values on one side of a value.
     Plane,
+    /// The parameter is the tilt in degrees: the mechanism excludes an arc of tilts.
+    Arc,
     /// The forces depend on the parameter: the tangent of the least residual predicts the end, but proves nothing.
     Tangent,
 }
@@ -28,7 +37,7 @@ pub(super) enum Predictor {
 pub(super) struct Path<'a> {
     pub predictor: Predictor,
     /// Returns the change of the component for a value of the parameter.
-    pub setting: &'a dyn Fn(f64) -> Setting,
+    pub setting: Box<dyn Fn(f64) -> Setting + 'a>,
     /// The least meaningful value; −∞ if all values are meaningful.
     pub min_value: f64,
     /// The largest value that is tried.
@@ -70,13 +79,6 @@ impl Beyond {
     }
 }
 
-/// The values at which a mechanism proves a fall: all above one value, all below it, or all values.
-pub(super) enum ExcludedRange {
-    Above(f64),
-    Below(f64),
-    All,
-}
-
 /// An end is found if a stable and an unstable value are at most this far apart, relative to the end. Ends of two
 /// components that differ by less are equal.
 pub(in crate::mechanics::analysis) const END_TOL: f64 = 1e-6;
@@ -91,20 +93,75 @@ const UNKNOWN_ERROR: f64 = 0.5 * Proof::IMBALANCE_TOL;
 /// The relative error of known forces counts as at least this value. Without this minimum, one end in a random scene
 /// was too far out by 2·10⁻⁶ of its value.
 const LEAST_ERROR: f64 = 2e-10;
-/// A value that differs from 0 by at most this fraction of [`Path::typical_small`] differs only by the rounding of the
-/// solver.
-const ROUNDING_TOL: f64 = 1e-9;
+/// A range between two stable tilts is not searched further if it is narrower than this, degrees.
+pub(super) const MIN_ARC: f64 = 1e-6;
 /// Distances from an end grow by this factor while verdicts stay undecided.
-pub(super) const OFFSET_GROWTH: f64 = 16.0;
-/// The largest number of steps of one search.
-pub(super) const MAX_STEPS: usize = 60;
+const OFFSET_GROWTH: f64 = 16.0;
+/// The largest number of steps of one search. Most of them exclude values by a mechanism.
+pub(super) const MAX_STEPS: usize = 200;
+/// The step of a search among tilts, degrees. A right angle is no multiple of it, because many structures are exactly at
+/// their limit of stability at right angles.
+const TILT_STEP: f64 = 77.7;
+/// The largest number of times that an end is moved inward by [`Path::sharpened`]. Each time costs a program.
+const MAX_SHARPENINGS: usize = 8;
 /// Values beyond this multiple of [`Path::typical_large`] are not tried. If the power of a mechanism vanishes only beyond
 /// it, the component counts as falling at every value.
 pub(super) const MAX_VALUE: f64 = 1e6;
 /// A threshold of friction or kernel below this has the [`Path::resolution`] of this value.
 const LEAST_THRESHOLD_SIZE: f64 = 0.1;
 
-impl Path<'_> {
+impl<'a> Path<'a> {
+    /// Creates the path of a parameter that is at least 0 and of the order of 1.
+    pub fn new(predictor: Predictor, setting: impl Fn(f64) -> Setting + 'a) -> Path<'a> {
+        Path {
+            predictor,
+            setting: Box::new(setting),
+            min_value: 0.0,
+            max_value: f64::INFINITY,
+            typical_small: 1.0,
+            typical_large: 1.0,
+            load_ratio: 0.0,
+        }
+    }
+
+    /// Returns the path of the parameter of a margin, for the component of a trial.
+    pub fn of(kind: MarginKind, trial: &Trial) -> Path<'static> {
+        let of = |predictor| Path::new(predictor, move |value| Setting::at(kind, value));
+        let threshold = |max_value| Path { max_value, typical_large: max_value / MAX_VALUE, ..of(Predictor::Tangent) };
+        let weights_to_loads = trial.weights_to_loads();
+        match kind {
+            MarginKind::Friction => threshold(Margins::MAX_FRICTION),
+            MarginKind::Kernel => threshold(1.0),
+            MarginKind::Tilt => Path { min_value: f64::NEG_INFINITY, ..of(Predictor::Arc) },
+            MarginKind::HorizontalLoad => Path {
+                min_value: f64::NEG_INFINITY,
+                typical_large: (1.0 / weights_to_loads).max(1.0),
+                load_ratio: 1.0 / weights_to_loads,
+                ..of(Predictor::Plane)
+            },
+            MarginKind::LoadFactor | MarginKind::Robots => Path {
+                typical_small: weights_to_loads.min(1.0),
+                typical_large: weights_to_loads.max(1.0),
+                load_ratio: weights_to_loads,
+                ..of(Predictor::Plane)
+            },
+        }
+    }
+
+    /// Leaves only the loads that grow in the direction of larger (1) or smaller (−1) values. An interval is unbounded in
+    /// this direction only if the component stands with these loads alone.
+    pub fn grown_alone(&self, outward: f64) -> Setting {
+        let [from, to] = [0.0, 1.0].map(&self.setting);
+        Setting {
+            along: outward * (to.along - from.along),
+            across: outward * (to.across - from.across),
+            loads: outward * (to.loads - from.loads),
+            has_fixed_loads: false,
+            limits: LimitChange::FiniteToZero,
+            ..from
+        }
+    }
+
     /// Finds the end of the interval in the direction `outward` (−1 or 1), starting at the value `from`, at which the
     /// component stands.
     ///
@@ -123,14 +180,24 @@ impl Path<'_> {
     }
 
     /// Finds the end of the interval in a bracket. See [`Path::end`].
-    pub fn search(&self, trial: &mut Trial, mut bracket: Bracket, outward: f64, hint: Option<f64>) -> End {
+    pub fn search(&self, trial: &mut Trial, bracket: Bracket, outward: f64, hint: Option<f64>) -> End {
+        let end = self.confirmed(trial, bracket, outward, hint);
+        match self.predictor {
+            Predictor::Arc => self.sharpened(trial, end, outward),
+            Predictor::Tangent if trial.has_slight_loads() => self.sharpened(trial, end, outward),
+            _ => end,
+        }
+    }
+
+    fn confirmed(&self, trial: &mut Trial, mut bracket: Bracket, outward: f64, hint: Option<f64>) -> End {
         let from = bracket.inside;
         let hint = self.usable(hint, from, outward);
         // Compute verdicts on both sides of the hint. They often confirm the end at once.
         if let Some(hint) = hint {
             self.test_near_hint(trial, &mut bracket, hint, outward);
         }
-        // Step outward until the component falls. Then narrow the bracket by cutting planes and bisection.
+        // Step outward until the component falls. Then narrow the bracket by mechanisms and bisection.
+        let mut is_slow = false;
         for _ in 0..MAX_STEPS {
             let inside = bracket.inside;
             let Some(known) = &bracket.beyond else {
@@ -146,19 +213,57 @@ impl Path<'_> {
             if width <= END_TOL || (is_confirmed && width <= 2.0 * CONFIRMATION_TOL) {
                 return self.enclosed(trial, bracket, from, hint, outward);
             }
-            // A mechanism may cease to prove a fall at `beyond`. Try a value just inside it. Otherwise, or if the
-            // verdict there is undecided, try the middle of the bracket.
-            let is_cut = self.predictor == Predictor::Plane && known.mechanism.is_some();
-            let just = is_cut.then_some(beyond - 0.5 * outward * END_TOL * self.size(beyond));
-            let values = just.into_iter().chain([0.5 * (inside + beyond)]);
-            let found = values
-                .filter(|value| (value - inside) * outward > 0.0)
-                .any(|value| self.test(trial, &mut bracket, value, outward) != Verdict::Undecided);
-            if !found {
-                break;
+            // A mechanism may cease to prove a fall at `beyond`. Try values just inside it. Otherwise, if the verdicts
+            // there are undecided, or if the last mechanism hardly narrowed the bracket, try values farther inside.
+            let is_cut = self.predictor != Predictor::Tangent && known.mechanism.is_some();
+            let size = self.size(beyond);
+            let near = offsets(0.5 * END_TOL).filter(|_| is_cut).map(|step| (beyond - outward * step * size, true));
+            let far = [0.5, 0.75, 0.25].map(|share| (inside + share * (beyond - inside), false));
+            let mut values: Vec<(f64, bool)> = near.chain(far).collect();
+            if is_slow {
+                values.rotate_right(far.len());
+            }
+            values.retain(|(value, _)| (value - inside) * outward > 0.0);
+            let found = values.into_iter().find_map(|(value, is_near)| {
+                let verdict = self.test(trial, &mut bracket, value, outward);
+                (verdict != Verdict::Undecided).then_some((value, is_near, verdict))
+            });
+            match found {
+                None => break,
+                Some((value, true, Verdict::Stable)) if bracket.inside == value => {
+                    return self.enclosed(trial, bracket, from, hint, outward);
+                }
+                Some((_, is_near, verdict)) => is_slow = is_near && verdict == Verdict::Unstable,
             }
         }
         self.unconfirmed(trial, bracket, hint, outward)
+    }
+
+    /// Moves an end inward if a mechanism proves a fall just inside it, and returns the end. The verdict there is stable
+    /// only within the tolerance of a proof by forces; a mechanism has no such tolerance. This matters if some loads are
+    /// slight, and for tilts, of which this tolerance may be more than 0.0001 degrees.
+    fn sharpened(&self, trial: &mut Trial, end: End, outward: f64) -> End {
+        let End::At { mut value, mut mechanism } = end else {
+            return end;
+        };
+        for _ in 0..MAX_SHARPENINGS {
+            let inside = (value - outward * END_TOL * self.size(value)).clamp(self.min_value, self.max_value);
+            let setting = (self.setting)(inside);
+            let Some(tangent) = trial.tangent(&setting).filter(|_| inside != value) else {
+                break;
+            };
+            let Some(motion) = trial.proved_motion(&tangent, &setting) else {
+                break;
+            };
+            let closer = match self.predictor {
+                Predictor::Tangent => trial.root(&tangent, &self.setting, [inside, inside + (inside - value)]),
+                _ => self.bound(trial, inside, &motion, outward),
+            };
+            let is_inward = (closer - inside) * (inside - value) > 0.0;
+            value = (if is_inward { closer } else { inside }).clamp(self.min_value, self.max_value);
+            mechanism = motion;
+        }
+        End::At { value, mechanism }
     }
 
     /// Returns a hint without rounding; `None` if it lies on the wrong side of `from`.
@@ -171,12 +276,6 @@ impl Path<'_> {
     pub fn test_values(&self, end: f64, outward: f64) -> [f64; 3] {
         let size = outward * self.size(end);
         [end, end - 0.5 * END_TOL * size, (end + 16.0 * CONFIRMATION_TOL * size).max(self.min_value)]
-    }
-
-    /// Returns `value`, or a large finite number if `value` is even larger, such as infinity. A search for a lower end
-    /// can start at the result.
-    pub fn finite_start(&self, value: f64) -> f64 {
-        value.min(MAX_VALUE * self.typical_large)
     }
 
     /// Returns the end if the bracket is narrow enough: the hint if it lies in the bracket, otherwise the value beyond
@@ -193,7 +292,7 @@ impl Path<'_> {
         };
         let within = hint
             .filter(|hint| (hint - inside) * outward >= -END_TOL * self.size(*hint) && (falls - hint) * outward >= 0.0);
-        let nearest = if self.predictor == Predictor::Plane { falls } else { inside };
+        let nearest = if self.predictor == Predictor::Tangent { inside } else { falls };
         let value = self.without_rounding(within.unwrap_or(nearest)).clamp(self.min_value, self.max_value);
         if self.is_natural(value, outward) {
             return End::natural(self.min_value);
@@ -263,8 +362,7 @@ impl Path<'_> {
         let is_plane = self.predictor == Predictor::Plane;
         let first = if is_plane { 0.5 * END_TOL } else { END_TOL };
         let offsets = |side: f64, most: f64| {
-            std::iter::successors(Some(first), |step| Some(step * OFFSET_GROWTH))
-                .take_while(move |step| *step <= most)
+            growing(first, most)
                 .map(move |step| hint + side * outward * step * size)
                 .filter(|value| (self.min_value..=self.max_value).contains(value))
         };
@@ -295,13 +393,28 @@ impl Path<'_> {
             }
         }
         for value in offsets(1.0, CONFIRMATION_TOL * self.resolution(hint) / size) {
-            // Just beyond the end the verdict may be stable within the tolerance of the proofs. Use only a fall.
-            if is_within(bracket, value)
-                && let (Verdict::Unstable, motion) = self.decide_at_limit(trial, value)
-            {
-                return self.narrow(trial, bracket, value, motion, outward);
+            if !is_within(bracket, value) {
+                continue;
+            }
+            match self.decide_at_limit(trial, value) {
+                (Verdict::Unstable, motion) => return self.narrow(trial, bracket, value, motion, outward),
+                // Just beyond the end the verdict may be stable within the tolerance of the proofs. Farther out it shows
+                // that the hint is wrong, if no mechanism contradicts it.
+                (Verdict::Stable, _) if self.refutes(trial, value, (value - hint) * outward / size) => {
+                    bracket.inside = value;
+                    return;
+                }
+                _ => {}
             }
         }
+    }
+
+    /// True if a stable verdict at a value proves that the end lies beyond it. The value lies beyond a threshold by this
+    /// distance, relative to [`Path::size`].
+    fn refutes(&self, trial: &mut Trial, value: f64, distance: f64) -> bool {
+        let setting = (self.setting)(value);
+        let is_far = self.predictor == Predictor::Tangent && distance > STABLE_BEYOND;
+        is_far && trial.tangent(&setting).is_some_and(|tangent| trial.proved_motion(&tangent, &setting).is_none())
     }
 
     /// Decides the component at a value inside a bracket, and moves the end of the bracket to this value, or farther if the
@@ -309,25 +422,86 @@ impl Path<'_> {
     fn test(&self, trial: &mut Trial, bracket: &mut Bracket, value: f64, outward: f64) -> Verdict {
         let (verdict, motion) = self.decide_at_limit(trial, value);
         match verdict {
-            Verdict::Stable => bracket.inside = value,
+            Verdict::Stable => match self.fall_between(trial, [bracket.inside, value]) {
+                None => bracket.inside = value,
+                Some((inside, falls, found)) => {
+                    *bracket = Bracket { inside, beyond: None };
+                    self.set_beyond(trial, bracket, falls, found, outward);
+                }
+            },
             Verdict::Unstable => self.narrow(trial, bracket, value, motion, outward),
             Verdict::Undecided => {}
         }
         verdict
     }
 
+    /// Finds tilts between two stable tilts at which the component ceases to stand: a stable tilt, and a tilt with
+    /// another verdict. `None` if it stands at all tilts between them, and for other parameters.
+    ///
+    /// If the convex set of stable gravity contains both ends of an arc and the intersection of the tangents there, it
+    /// contains the triangle of these points, and therefore the arc. If the set is a cone, it contains every arc of less
+    /// than half a turn between two of its directions. Otherwise the arc is bisected.
+    fn fall_between(&self, trial: &mut Trial, [from, to]: [f64; 2]) -> Option<(f64, f64, (Verdict, Vec<Motion>))> {
+        let width = (to - from).abs();
+        let is_straight = self.predictor != Predictor::Arc || width <= MIN_ARC;
+        if is_straight || (width < 179.0 && !trial.is_loaded() && !trial.is_limited()) {
+            return None;
+        }
+        let middle = 0.5 * (from + to);
+        if width < 170.0 {
+            let beyond_the_arc = 1.0 / libm::cos(0.5 * width.to_radians());
+            let apex = Setting::tilted(middle, beyond_the_arc);
+            if trial.decide(&apex).0 == Verdict::Stable {
+                return None;
+            }
+        }
+        match self.decide_at_limit(trial, middle) {
+            (Verdict::Stable, _) => {
+                self.fall_between(trial, [from, middle]).or_else(|| self.fall_between(trial, [middle, to]))
+            }
+            found => Some((from, middle, found)),
+        }
+    }
+
     /// Narrows a bracket with the mechanism by which the component falls at `value`.
     fn narrow(&self, trial: &Trial, bracket: &mut Bracket, value: f64, motion: Vec<Motion>, outward: f64) {
-        let from = match self.excluded_range(trial, value, &motion) {
-            ExcludedRange::Above(bound) if outward > 0.0 => bound,
-            ExcludedRange::Below(bound) if outward < 0.0 => bound,
-            // The mechanism excludes even the values inside the bracket at which the verdict was stable: such a verdict
-            // holds only within its tolerance. Use `value` itself as the outer end.
-            _ => value,
-        };
+        let from = self.bound(trial, value, &motion, outward);
         let is_closer = |known: &Beyond| (known.from - from) * outward > 0.0;
         if bracket.beyond.as_ref().is_none_or(is_closer) {
             bracket.beyond = Some(Beyond { from, at: value, mechanism: Some(motion) });
+        }
+        // The mechanism may exclude even stable tilts inside: their verdicts hold only within the tolerance of a proof by
+        // forces. Search again from the start.
+        if self.predictor == Predictor::Arc && (bracket.inside - from) * outward > MIN_ARC {
+            bracket.inside = if outward > 0.0 { self.min_value } else { self.max_value };
+        }
+    }
+
+    /// Returns the value, seen from inside, from which on a mechanism proves a fall. It was found at `value`.
+    fn bound(&self, trial: &Trial, value: f64, motion: &[Motion], outward: f64) -> f64 {
+        let excluded = self.excluded(trial, value, motion);
+        let bound = if outward > 0.0 { excluded[0] } else { excluded[1] };
+        match self.predictor {
+            Predictor::Arc => bound.clamp(self.min_value, self.max_value),
+            _ if bound.is_finite() => bound,
+            // The mechanism excludes even the values inside at which the verdict was stable: such a verdict holds only
+            // within its tolerance.
+            _ => value,
+        }
+    }
+
+    /// Sets the outer end of a bracket to a value with a verdict other than *stable*.
+    fn set_beyond(
+        &self,
+        trial: &Trial,
+        bracket: &mut Bracket,
+        value: f64,
+        (verdict, motion): (Verdict, Vec<Motion>),
+        outward: f64,
+    ) {
+        match verdict {
+            Verdict::Unstable => self.narrow(trial, bracket, value, motion, outward),
+            _ => bracket.beyond = Some(Beyond { from: value, at: value, mechanism: None }),
         }
     }
 
@@ -335,10 +509,17 @@ impl Path<'_> {
     /// larger distance. Returns the end of the interval if the search must stop, otherwise `None`.
     fn step_outward(&self, trial: &mut Trial, bracket: &mut Bracket, outward: f64) -> Option<End> {
         let most = MAX_VALUE * self.typical_large;
-        let next = bracket.inside + outward * (10.0 * bracket.inside.abs()).max(self.typical_small);
+        let inside = bracket.inside;
+        let next = match self.predictor {
+            // A search towards the tilt 0 must not jump over tilts near 0.
+            Predictor::Arc if inside * outward < 0.0 => 0.0,
+            Predictor::Arc => inside + outward * TILT_STEP,
+            _ => inside + outward * (10.0 * inside.abs()).max(self.typical_small),
+        };
         let next = next.clamp(self.min_value.max(-most), self.max_value.min(most));
-        if next == bracket.inside {
-            return Some(if next == self.min_value { End::natural(next) } else { End::Unbounded });
+        if next == inside {
+            let is_natural = next == self.min_value && self.predictor != Predictor::Arc;
+            return Some(if is_natural { End::natural(next) } else { End::Unbounded });
         }
         if self.test(trial, bracket, next, outward) == Verdict::Undecided {
             bracket.beyond = Some(Beyond { from: next, at: next, mechanism: None });
@@ -346,24 +527,47 @@ impl Path<'_> {
         None
     }
 
-    /// Returns the values at which a mechanism proves a fall. The mechanism was found at `value`.
-    pub fn excluded_range(&self, trial: &Trial, value: f64, motion: &[Motion]) -> ExcludedRange {
-        if self.predictor == Predictor::Tangent {
-            return ExcludedRange::All;
+    /// Returns the first and the last value at which a mechanism proves a fall; infinite if there is no such value. The
+    /// mechanism was found at `value`, which lies between them.
+    pub fn excluded(&self, trial: &Trial, value: f64, motion: &[Motion]) -> [f64; 2] {
+        let everywhere = [f64::NEG_INFINITY, f64::INFINITY];
+        match self.predictor {
+            Predictor::Tangent => everywhere,
+            Predictor::Plane => {
+                let [without, with] = [0.0, self.typical_large].map(|at| trial.power(&(self.setting)(at), motion));
+                // The power along the mechanism is a linear function A + B·x of the parameter x, 0 at x = −A/B.
+                let slope = (with - without) / self.typical_large;
+                let mut bound = -without / slope;
+                // Rounding must not exclude the least meaningful value, such as the load factor 0.
+                if (bound - self.min_value).abs() < ROUNDING_TOL * self.typical_small {
+                    bound = self.min_value;
+                }
+                match bound {
+                    _ if !bound.is_finite() || bound.abs() > MAX_VALUE * self.typical_large => everywhere,
+                    _ if slope > 0.0 => [bound.min(value), f64::INFINITY],
+                    _ => [f64::NEG_INFINITY, bound.max(value)],
+                }
+            }
+            Predictor::Arc => {
+                let power = |along: f64, across: f64| {
+                    let setting = Setting { along, across, ..Setting::default() };
+                    trial.power(&setting, motion)
+                };
+                let constant = power(0.0, 0.0);
+                let [along, across] = [power(1.0, 0.0) - constant, power(0.0, 1.0) - constant];
+                let size = libm::hypot(along, across);
+                // The power is positive where size · cos(θ − middle) + constant > 0.
+                if constant >= size {
+                    return everywhere;
+                }
+                let middle = libm::atan2(across, along).to_degrees();
+                let half = libm::acos((-constant / size).clamp(-1.0, 1.0)).to_degrees();
+                let offset = value - middle;
+                let offset = offset - 360.0 * (offset / 360.0).round();
+                let half = half.max(offset.abs());
+                [value - offset - half, value - offset + half]
+            }
         }
-        let [without, with] = [0.0, self.typical_large].map(|at| trial.power(&(self.setting)(at), motion));
-        // The power along the mechanism is a linear function A + B·x of the parameter x. It is zero at x = −A/B.
-        let slope = (with - without) / self.typical_large;
-        let mut bound = -without / slope;
-        // Rounding must not exclude the least meaningful value, such as the load factor 0.
-        if (bound - self.min_value).abs() < ROUNDING_TOL * self.typical_small {
-            bound = self.min_value;
-        }
-        if !bound.is_finite() || bound.abs() > MAX_VALUE * self.typical_large {
-            return ExcludedRange::All;
-        }
-        // The mechanism was found at `value`, so the excluded range must contain `value`.
-        if slope > 0.0 { ExcludedRange::Above(bound.min(value)) } else { ExcludedRange::Below(bound.max(value)) }
     }
 
     pub fn decide_at_limit(&self, trial: &mut Trial, value: f64) -> (Verdict, Vec<Motion>) {
@@ -372,10 +576,23 @@ impl Path<'_> {
 
     /// Returns the magnitude of `value`, to which distances are relative; for a value near 0 a typical size.
     pub fn size(&self, value: f64) -> f64 {
-        if self.predictor == Predictor::Tangent {
-            return if value > 0.0 { value } else { self.typical_small };
+        match self.predictor {
+            Predictor::Tangent => {
+                if value > 0.0 {
+                    value
+                } else {
+                    self.typical_small
+                }
+            }
+            Predictor::Arc => value.abs().clamp(1.0, 90.0),
+            Predictor::Plane => {
+                if value.abs() < 1e-3 * self.typical_small {
+                    self.typical_small
+                } else {
+                    value.abs()
+                }
+            }
         }
-        if value.abs() < 1e-3 * self.typical_small { self.typical_small } else { value.abs() }
     }
 
     /// Returns the size of `value` for the width of a bracket and for the largest distance at which a fall confirms a hint:
@@ -391,4 +608,13 @@ impl Path<'_> {
         let rounding = if self.predictor == Predictor::Tangent { END_TOL } else { ROUNDING_TOL };
         if value.abs() < rounding * self.typical_small { 0.0 } else { value }
     }
+}
+
+/// Returns growing distances from an end, relative to [`Path::size`], at which verdicts confirm it.
+pub(super) fn offsets(first: f64) -> impl Iterator<Item = f64> {
+    growing(first, CONFIRMATION_TOL)
+}
+
+fn growing(first: f64, most: f64) -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(first), |step| Some(step * OFFSET_GROWTH)).take_while(move |step| *step <= most)
 }

@@ -7,26 +7,17 @@
 //! of unbalanced forces, becomes 0. The search starts where the component falls.
 
 use super::interval::{End, Exclusion, Interval};
-use super::search::{Beyond, Bracket, CONFIRMATION_TOL, END_TOL, MAX_VALUE, Path, Predictor};
+use super::kind::MarginKind;
+use super::search::{Beyond, Bracket, CONFIRMATION_TOL, END_TOL, Path};
 use super::trial::{Setting, Trial};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::solve::Tangent;
 
-/// The largest number of times that an end is moved inward by [`sharpened`]. Each time costs a program.
-pub(super) const MAX_SHARPENINGS: usize = 8;
-
 /// Returns the interval of values, from 0 to `max_value`, at which a component stands. `outward` is −1 if it stands
 /// above a least sufficient value, such as the least friction, and 1 if it stands below a largest admissible value.
-pub(super) fn threshold(trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, max_value: f64, outward: f64) -> Interval {
-    let path = Path {
-        predictor: Predictor::Tangent,
-        setting,
-        min_value: 0.0,
-        max_value,
-        typical_small: 1.0,
-        typical_large: max_value / MAX_VALUE,
-        load_ratio: 0.0,
-    };
+pub(super) fn threshold(trial: &mut Trial, kind: MarginKind, outward: f64) -> Interval {
+    let path = Path::of(kind, trial);
+    let (setting, max_value) = (&path.setting, path.max_value);
     let is_upper = outward > 0.0;
     let interval = |end: End| {
         if is_upper {
@@ -62,32 +53,7 @@ pub(super) fn threshold(trial: &mut Trial, setting: &dyn Fn(f64) -> Setting, max
     let (inside, (outside, verdict)) = if is_upper { (last.0, (value, found)) } else { (value, last) };
     let root = path.newton_root(trial, [inside, outside]);
     let bracket = Bracket { inside, beyond: Some(Beyond::new(outside, verdict)) };
-    let end = path.search(trial, bracket, outward, root);
-    interval(if trial.has_slight_loads() { sharpened(trial, &path, end, outward) } else { end })
-}
-
-/// Moves an end inward if a mechanism proves a fall just inside it, and returns the end. The verdict there is stable
-/// only within the tolerance of a proof by forces; a mechanism has no such tolerance. This matters if some loads are
-/// slight.
-fn sharpened(trial: &mut Trial, path: &Path, end: End, outward: f64) -> End {
-    let End::At { mut value, mut mechanism } = end else {
-        return end;
-    };
-    for _ in 0..MAX_SHARPENINGS {
-        let inside = (value - outward * END_TOL * path.size(value)).clamp(path.min_value, path.max_value);
-        let setting = (path.setting)(inside);
-        let Some(tangent) = trial.tangent(&setting) else {
-            break;
-        };
-        let Some(motion) = trial.proved_motion(&tangent, &setting) else {
-            break;
-        };
-        let root = trial.root(&tangent, path.setting, [inside, inside + (inside - value)]);
-        let is_inward = (root - inside) * (inside - value) > 0.0;
-        value = (if is_inward { root } else { inside }).clamp(path.min_value, path.max_value);
-        mechanism = motion;
-    }
-    End::At { value, mechanism }
+    interval(path.search(trial, bracket, outward, root))
 }
 
 /// The largest number of steps for one threshold, including steps that do not go to a root.
@@ -164,7 +130,7 @@ impl Path<'_> {
     /// If the component stands at the root of a tangent, the root of another tangent, closer to the threshold, must
     /// agree with this root. Adds the forces and the motion that confirm the threshold to the cache of `trial`.
     pub(super) fn newton_root(&self, trial: &mut Trial, [inside, outside]: [f64; 2]) -> Option<f64> {
-        let setting = self.setting;
+        let setting = &self.setting;
         let mut bracket = NewtonBracket { inside, outside, tangent: trial.tangent(&setting(outside))?, standing: None };
         let mut falling = Vec::new();
         // `reached`: the last root at which the component stands, and the parameter value at which its tangent was
@@ -221,7 +187,7 @@ impl Path<'_> {
         falling: Vec<(f64, Tangent)>,
         standing: Option<(f64, Tangent)>,
     ) {
-        let setting = self.setting;
+        let setting = &self.setting;
         let distance = |value: f64| (value - edge).abs() / self.size(edge);
         let mut at = |distance: f64| {
             let value = (edge + outward * distance * self.size(edge)).clamp(self.min_value, self.max_value);

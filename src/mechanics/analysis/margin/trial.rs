@@ -5,7 +5,8 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::geometry::quarter_turn;
+use super::kind::MarginKind;
+use crate::geometry::{quarter_turn, sin_cos_degrees};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::decide::{
     LimitDistance, LimitResults, ProofCache, add_limit_to_cache, decide_verdict, least_force_error, proved_motion,
@@ -28,7 +29,7 @@ pub fn trials() -> usize {
 
 /// The changed parameters of a component; by default nothing is changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Setting {
+pub(in crate::mechanics::analysis) struct Setting {
     /// One friction coefficient for every interface; `None` leaves the coefficients unchanged.
     pub friction: Option<f64>,
     /// The safety kernel; `None` leaves it unchanged.
@@ -47,7 +48,7 @@ pub(super) struct Setting {
 
 /// The changed limits of robots.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum LimitChange {
+pub(in crate::mechanics::analysis) enum LimitChange {
     /// The limits of the scene.
     None,
     /// Every finite limit becomes 0. Unlimited forces and torques of robots remain, which resist loads of any size.
@@ -75,6 +76,50 @@ impl Default for Setting {
             has_fixed_loads: true,
             limits: LimitChange::None,
         }
+    }
+}
+
+impl Setting {
+    /// Returns the setting for a value of the parameter of a margin; unchanged for [`MarginKind::Robots`].
+    pub fn at(kind: MarginKind, value: f64) -> Setting {
+        let given = Setting::default();
+        match kind {
+            MarginKind::Friction => Setting { friction: Some(value), ..given },
+            MarginKind::Tilt => Setting::tilted(value, 1.0),
+            MarginKind::HorizontalLoad => Setting { across: value, ..given },
+            MarginKind::Kernel => Setting { kernel: Some(value), ..given },
+            MarginKind::LoadFactor => Setting { loads: value, ..given },
+            MarginKind::Robots => given,
+        }
+    }
+
+    /// Returns the setting with gravity rotated by an angle in degrees, positive to the right, and multiplied by
+    /// `stretch`.
+    pub fn tilted(degrees: f64, stretch: f64) -> Setting {
+        let (sin, cos) = sin_cos_degrees(degrees);
+        Setting { along: stretch * cos, across: stretch * sin, ..Setting::default() }
+    }
+
+    /// Returns a component with these parameters.
+    pub fn apply(&self, given: &Assembly) -> Assembly {
+        let mut changed = given.clone();
+        if let Some(kernel) = self.kernel {
+            changed = changed.with_kernel(kernel);
+        }
+        if let Some(mu) = self.friction {
+            changed = changed.with_friction(mu);
+        }
+        if !self.has_fixed_loads {
+            changed.bodies.iter_mut().for_each(|body| body.fixed = LoadVector::ZERO);
+        }
+        // Weights along and across the original gravity together equal weights along a changed gravity vector.
+        let down = given.pull;
+        changed =
+            changed.with_gravity(down * self.along + quarter_turn(down) * self.across).with_load_factor(self.loads);
+        for (number, grip) in changed.grips.iter_mut().enumerate() {
+            grip.limits = limits(grip.limits, number, self.limits);
+        }
+        changed
     }
 }
 
@@ -165,14 +210,8 @@ impl<'a> Trial<'a> {
     }
 
     /// Returns the motion of largest power, if this motion proves that the changed component falls; otherwise `None`. A
-    /// mechanism has no tolerance, so it may prove a fall where the verdict is stable, because the forces balance
-    /// within their tolerance.
-    pub fn sure_fall(&mut self, setting: &Setting) -> Option<Vec<Motion>> {
-        let tangent = self.tangent(setting)?;
-        self.proved_motion(&tangent, setting)
-    }
-
-    /// Like [`Trial::sure_fall`], but uses a tangent that [`Trial::tangent`] has already computed for the same setting.
+    /// mechanism has no tolerance, so it may prove a fall where the verdict is stable, because the forces balance within
+    /// their tolerance. The tangent belongs to the same setting.
     pub fn proved_motion(&self, tangent: &Tangent, setting: &Setting) -> Option<Vec<Motion>> {
         let changed = self.changed(setting);
         let program = Program::new(&changed, Scale::from_assembly(&changed));
@@ -268,26 +307,7 @@ impl<'a> Trial<'a> {
     }
 
     fn changed(&self, setting: &Setting) -> Assembly {
-        let mut changed = self.original.clone();
-        if let Some(kernel) = setting.kernel {
-            changed = changed.with_kernel(kernel);
-        }
-        if let Some(mu) = setting.friction {
-            changed = changed.with_friction(mu);
-        }
-        // Weights along and across the original gravity together equal weights along a changed gravity vector.
-        let down = self.original.pull;
-        if !setting.has_fixed_loads {
-            changed.bodies.iter_mut().for_each(|body| body.fixed = LoadVector::ZERO);
-        }
-        changed = changed
-            .with_gravity(down * setting.along + quarter_turn(down) * setting.across)
-            .with_load_factor(setting.loads);
-        for grip in 0..changed.grips.len() {
-            let limits = limits(changed.grips[grip].limits, grip, setting.limits);
-            changed = changed.with_limits(grip, limits);
-        }
-        changed
+        setting.apply(self.original)
     }
 }
 

@@ -1,7 +1,7 @@
 //! [`Case`]: a component exactly at an end of the interval in which it stands, where it begins to fall.
 
 use crate::geometry::{cross, quarter_turn, sin_cos_degrees};
-use crate::mechanics::analysis::margin::MarginKind;
+use crate::mechanics::analysis::margin::{MarginKind, Setting};
 use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::Motion;
 use crate::mechanics::solve::{LimitState, limit_state};
@@ -33,19 +33,7 @@ const END_TOL: f64 = 1e-3;
 impl Case<'_> {
     /// Returns the component with the parameter set to `value`.
     pub fn at(&self, value: f64) -> Assembly {
-        let given = self.component.clone();
-        let down = given.pull;
-        match self.kind {
-            MarginKind::Friction => given.with_friction(value),
-            MarginKind::Kernel => given.with_kernel(value),
-            MarginKind::LoadFactor => given.with_load_factor(value),
-            MarginKind::HorizontalLoad => given.with_gravity(down + quarter_turn(down) * value),
-            MarginKind::Tilt => {
-                let (sin, cos) = sin_cos_degrees(value);
-                given.with_gravity(down * cos + quarter_turn(down) * sin)
-            }
-            MarginKind::Robots => given,
-        }
+        Setting::at(self.kind, value).apply(self.component)
     }
 
     /// Returns the derivative of the load on each body with respect to the parameter, at `value`. `None` if the loads

@@ -6,7 +6,7 @@
 //! move only along the edge. If the edge moves at right angles to itself, the corner moves with it. A corner that is
 //! guided by two edges of different directions cannot move.
 
-use super::elimination::Elimination;
+use super::elimination::{Elimination, ZERO_TOL};
 use super::joints::{Corner, Finder, Guide, InterfaceCorners};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::mechanics::scene::{BodyId, Frame, Scene};
@@ -15,9 +15,6 @@ use crate::mechanics::statics::interface::{ContactKind, Interface};
 
 /// Two directions count as parallel if the sine of the angle between them is at most this.
 const PARALLEL_TOL: f64 = 1e-3;
-/// A move keeps the contacts only if no corner leaves its edge by more than this, relative to the displacement of the
-/// moved corner.
-const EDGE_TOL: f64 = 1e-7;
 /// If a group of dependent corners has more unknown displacements than this, none of its corners can move.
 const MAX_DEPENDENT_UNKNOWNS: usize = 400;
 
@@ -158,12 +155,12 @@ impl Corners {
         let solved = Elimination::new(&rows, unknowns.len(), &sides);
         for ((corner, k), (solution, error)) in moved.into_iter().zip(solved.solutions) {
             let current = &mut self.moves[corner][k];
-            if error > EDGE_TOL {
+            if error > ZERO_TOL {
                 current.field.clear();
                 continue;
             }
             for ((follower, along), displacement) in unknowns.iter().zip(&solution) {
-                if displacement.abs() > EDGE_TOL {
+                if displacement.abs() > ZERO_TOL {
                     current.field.push((*follower, along * *displacement));
                 }
             }

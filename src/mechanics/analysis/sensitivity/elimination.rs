@@ -3,12 +3,16 @@
 //!
 //! Gauss-Jordan elimination with complete pivoting. Reference: Golub and Van Loan, Matrix Computations, 2013, §3.4.
 
-/// A pivot counts as 0 if it is at most this fraction of the largest entry. Its row then depends on the rows before it.
+/// Numbers below this fraction of the largest are rounding: pivots, errors of equations, and amounts of forces. The row of
+/// a pivot that counts as 0 depends on the rows before it.
 ///
 /// The entries are near 1, and rounding reaches about 1e-13. With a value a hundred times larger, the solution of an
 /// arch with very flat hinges would not count as unique. With a value a hundred times smaller, rounding would count as
 /// a pivot.
-const PIVOT_TOL: f64 = 1e-8;
+pub(super) const ROUNDING_TOL: f64 = 1e-8;
+
+/// Forces, velocities, displacements and differences of slopes below this fraction of the largest count as 0.
+pub(super) const ZERO_TOL: f64 = 1e-7;
 
 /// The solutions of a system of equations with several right-hand sides.
 pub(super) struct Elimination {
@@ -37,7 +41,7 @@ impl Elimination {
             let Some((row, column, size)) = largest_entry(&table[first..], &is_free) else {
                 break;
             };
-            if size <= PIVOT_TOL * largest {
+            if size <= ROUNDING_TOL * largest {
                 break;
             }
             table.swap(first, first + row);

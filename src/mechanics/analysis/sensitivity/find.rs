@@ -4,6 +4,7 @@
 
 use super::case::Case;
 use super::corners::Corners;
+use super::elimination::ZERO_TOL;
 use super::rates::Rates;
 use super::state::{EndState, Freedom};
 use super::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity};
@@ -29,16 +30,8 @@ pub(in crate::mechanics::analysis) fn find(
     intervals: &Intervals,
     kind: MarginKind,
 ) -> Sensitivity {
-    let interval = match kind {
-        MarginKind::Friction => &intervals.friction,
-        MarginKind::Tilt => &intervals.tilt,
-        MarginKind::HorizontalLoad => &intervals.horizontal_load,
-        MarginKind::Kernel => &intervals.kernel,
-        MarginKind::LoadFactor => &intervals.load_factor,
-        MarginKind::Robots => &None,
-    };
     // Contacts that the scene lists do not move with the corners of the outlines, so there are no derivatives.
-    let (low, high) = match interval.as_ref().filter(|_| !context.scene.lists_contacts()) {
+    let (low, high) = match intervals.of(kind).filter(|_| !context.scene.lists_contacts()) {
         None => (Err(NoSensitivity::NotApplicable), Err(NoSensitivity::NotApplicable)),
         Some(Interval::Empty(_)) => (Err(NoSensitivity::Empty), Err(NoSensitivity::Empty)),
         Some(Interval::Undecided) => (Err(NoSensitivity::Unconfirmed), Err(NoSensitivity::Unconfirmed)),
@@ -252,9 +245,6 @@ impl Slope {
     }
 }
 
-/// Derivatives count as equal if they differ by at most this fraction of the largest derivative of the same kind.
-const EQUAL_SLOPE_TOL: f64 = 1e-7;
-
 /// The derivatives of one component at one end, for each state that was computed there.
 pub(super) struct Branch {
     pub rates: Vec<Rates>,
@@ -264,7 +254,7 @@ pub(super) struct Branch {
 
 impl Branch {
     /// Combines the derivatives at all states into one slope: unique, one-sided or at a kink. `read` takes the
-    /// derivative from the [`Rates`] of a state. Derivatives that differ by at most `EQUAL_SLOPE_TOL · largest` count
+    /// derivative from the [`Rates`] of a state. Derivatives that differ by at most `ZERO_TOL · largest` count
     /// as equal; `largest` is the largest absolute derivative of the same kind.
     pub fn slope(&self, largest: f64, read: impl Fn(&Rates) -> f64) -> Slope {
         let Some(first) = self.rates.first() else {
@@ -272,7 +262,7 @@ impl Branch {
         };
         let first = read(first);
         let others = || self.rates[1..].iter().map(&read);
-        let is_same = |rate: f64| (rate - first).abs() <= EQUAL_SLOPE_TOL * largest;
+        let is_same = |rate: f64| (rate - first).abs() <= ZERO_TOL * largest;
         let is_unique = match self.freedom {
             Freedom::Unique => true,
             Freedom::Unknown => false,

@@ -3,11 +3,8 @@
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::mechanics::scene::{BodyId, Frame, Scene};
 use crate::mechanics::statics::assembly::DisjointSets;
-use crate::mechanics::statics::interface::{ContactKind, Interface};
+use crate::mechanics::statics::interface::{ContactKind, Interface, JOIN_REACH};
 
-/// A corner counts as the end of a contact if its distance from this end is at most this multiple of the admissible
-/// gap. The corner and the end may each be wrong by one gap.
-const CORNER_REACH_PER_GAP: f64 = 4.0;
 /// The distance up to which a corner counts as the end of a contact is at least this fraction of the coordinates. This
 /// matters only for scenes without tolerance.
 const ROUNDING_TOL: f64 = 1e-9;
@@ -102,7 +99,7 @@ impl<'s> Finder<'s> {
         let [a, b] = interface.bodies;
         let gap = self.scene.tolerance_between(a, b).gap;
         let size = interface.ends[0].coords.norm().max(interface.length());
-        (CORNER_REACH_PER_GAP * gap).max(ROUNDING_TOL * size)
+        (JOIN_REACH * gap).max(ROUNDING_TOL * size)
     }
 
     /// Returns, of all corners of a body, the corner nearest to a point. `None` if it is farther away than `reach`, in

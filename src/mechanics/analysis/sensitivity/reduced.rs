@@ -9,8 +9,9 @@
 //! these forces hold together.
 
 use super::case::{Case, load_at};
+use super::elimination::ROUNDING_TOL;
 use crate::geometry::{Point, Vector, cross, quarter_turn};
-use crate::mechanics::analysis::margin::MarginKind;
+use crate::mechanics::analysis::margin::{END_TOL, MarginKind};
 use crate::mechanics::program::{Force, Program};
 use crate::mechanics::proof::ContactForces;
 use crate::mechanics::solve::LimitState;
@@ -287,14 +288,6 @@ impl State {
     }
 }
 
-/// A force is basic if the ratio of its amount to the largest amount is larger than this. This ratio must also be
-/// larger than the power of one unit of the force along the mechanism, relative to the largest velocity.
-const BASIC_TOL: f64 = 1e-8;
-
-/// The force of a robot counts as being at its limit if it differs from the limit by at most this fraction of the
-/// limit.
-const LIMIT_TOL: f64 = 1e-6;
-
 /// A force whose amount is unknown.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unknown {
@@ -339,7 +332,8 @@ pub(super) fn unknowns(program: &Program, solved: &LimitState) -> (Vec<Unknown>,
                         },
                     },
                     amount: amount * normal,
-                    is_basic: share > BASIC_TOL && share > power,
+                    // The force does no work along the mechanism, as far as rounding tells.
+                    is_basic: share > ROUNDING_TOL && share > power,
                     is_both_ways: false,
                 });
             }
@@ -351,7 +345,8 @@ pub(super) fn unknowns(program: &Program, solved: &LimitState) -> (Vec<Unknown>,
     for (grip, (forces, term)) in grips.iter().zip(&program.grips).enumerate() {
         for (component, amount) in forces.iter().copied().enumerate() {
             let limit = term.limits[component];
-            if limit > 0.0 && amount.abs() >= limit * (1.0 - LIMIT_TOL) {
+            // The end is known to this accuracy, and so is the force of a robot at its limit.
+            if limit > 0.0 && amount.abs() >= limit * (1.0 - END_TOL) {
                 limits.push((grip, component, limit * amount.signum()));
             } else if limit > 0.0 {
                 unknowns.push(Unknown {

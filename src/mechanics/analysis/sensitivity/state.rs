@@ -13,15 +13,9 @@
 //!    motions are not, all extreme motions are computed. Otherwise, some other forces and motions are computed.
 
 use super::case::Case;
-use super::elimination::Elimination;
+use super::elimination::{Elimination, ROUNDING_TOL, ZERO_TOL};
 use super::reduced::{Reduced, State, Unknown};
 use crate::mechanics::statics::assembly::Assembly;
-
-/// Forces or velocities below this fraction of the largest count as 0.
-const ZERO_TOL: f64 = 1e-7;
-
-/// An error of the equations up to this, relative to loads or velocities, is rounding.
-const ROUNDING_TOL: f64 = 1e-8;
 
 /// The derivatives are not computed for more groups than this: the time grows with the cube of their number.
 const MAX_GROUPS: usize = 150;

@@ -30,7 +30,7 @@ use std::fmt;
 
 use crate::mechanics::scene::{Frame, Scene};
 use crate::mechanics::statics::assembly::Assembly;
-use crate::mechanics::statics::interface::Interface;
+use crate::mechanics::statics::interface::{Interface, Interfaces};
 
 /// The name of an effect. Effects are reported in this order; `Display` writes [`EffectName::word`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -206,6 +206,11 @@ const EFFECTS: [&dyn Effect; 8] = [
     &load::Loads,
     &corner_contact::CornerContacts,
 ];
+
+/// Builds the assembly of a frame, as [`assemble`] does, of which it leaves out the reports.
+pub fn assembly_of(scene: &Scene, frame: &Frame, interfaces: &Interfaces) -> Assembly {
+    assemble(&FrameContext { scene, frame, interfaces: &interfaces.in_frame(frame) }).0
+}
 
 /// Builds the assembly of a frame from the effects that apply. Also returns a report on each effect that can act on the
 /// assembly, including skipped effects.

@@ -1,16 +1,11 @@
 //! Finds the contacts of circles: a circle touches an edge, another circle or, if the scene has corner contacts, a corner
 //! at one point, and the normal points to its centre.
 
+use super::edge::MAX_GAP_PER_SIZE;
+use super::join::JOIN_REACH;
 use super::{ContactKind, Interface, Interfaces, NearMiss, bodies, ordered};
 use crate::geometry::{Aabb, BoxIndex, Circle, Edge, Point, Vector, cross};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
-
-/// Two points at which a circle touches the same body are one contact if their distance is at most this multiple of the
-/// tolerance: a corner may divide an edge in two.
-const SAME_CONTACT_REACH: f64 = 4.0;
-
-/// Gaps above this fraction of the circle's diameter are not near misses: the bodies were not drawn to touch.
-const MAX_GAP_PER_DIAMETER: f64 = 0.01;
 
 /// What a circle can touch.
 enum Mark {
@@ -59,7 +54,7 @@ pub(super) fn find(scene: &Scene, found: &mut Interfaces) {
         Mark::Circle(circle) => around(circle),
     });
     for (body, circle) in circles {
-        let reach = (2.0 * MAX_GAP_PER_DIAMETER * circle.radius).max(scene.body(body).gap);
+        let reach = (2.0 * MAX_GAP_PER_SIZE * circle.radius).max(scene.body(body).gap);
         let mut near: Vec<&Part> = index.intersecting(around(circle).grown(reach)).collect();
         near.sort_unstable_by_key(|part| part.number);
         for parts in near.chunk_by(|a, b| a.body == b.body) {
@@ -110,7 +105,7 @@ fn add(scene: &Scene, found: &mut Interfaces, pair: [BodyId; 2], reach: f64, cir
         touches.filter(|t| t.gap >= -tolerance && t.gap <= reach).partition(|t| t.gap <= tolerance);
     let mut kept: Vec<Touch> = Vec::new();
     for touch in touching {
-        if kept.iter().any(|known| (known.at - touch.at).norm() <= SAME_CONTACT_REACH * tolerance) {
+        if kept.iter().any(|known| (known.at - touch.at).norm() <= JOIN_REACH * tolerance) {
             continue;
         }
         kept.push(touch);

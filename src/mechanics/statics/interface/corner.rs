@@ -6,19 +6,11 @@
 
 use std::collections::BTreeMap;
 
+use super::edge::PARALLEL_TOL;
+use super::join::JOIN_REACH;
 use super::{ContactKind, Interface, bodies, ordered};
 use crate::geometry::{Aabb, BoxIndex, Edge, Point, Vector, cross};
 use crate::mechanics::scene::{BodyId, Scene};
-
-/// If the difference of the unit bisectors of two corners has at most this length, the contact has no defined normal,
-/// because both corners point in the same direction.
-const PARALLEL_BISECTORS: f64 = 1e-9;
-
-/// A corner that touches another body is part of a known contact of the two bodies if its distance from this contact is
-/// at most this multiple of the tolerance.
-///
-/// The ends of an interface and the corner are each displaced by up to one tolerance.
-const SAME_CONTACT_REACH: f64 = 4.0;
 
 /// The tolerance on a lattice, as a fraction of its side. Any small fraction suffices: points are equal or at least
 /// half a side apart.
@@ -89,7 +81,7 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
                 continue;
             };
             let ends = ends_of_pair.entry(pair).or_default();
-            let is_covered = ends.iter().any(|ends| distance_to_segment(at, *ends) <= SAME_CONTACT_REACH * tolerance);
+            let is_covered = ends.iter().any(|ends| distance_to_segment(at, *ends) <= JOIN_REACH * tolerance);
             if !is_covered {
                 ends.push([at, at]);
                 let normal = if pair[0] == tip.body { into_tip } else { -into_tip };
@@ -122,7 +114,8 @@ fn corner_sides(scene: &Scene) -> Vec<CornerSide> {
 fn normal(tip: &Tip, other: &CornerSide, tolerance: f64) -> Option<Vector> {
     if (other.side.from - tip.at).norm() <= tolerance {
         let between = tip.inward() - other.tip.inward();
-        return (between.norm() > PARALLEL_BISECTORS).then(|| between.normalize());
+        // Two corners that point in the same direction have no normal.
+        return (between.norm() > PARALLEL_TOL).then(|| between.normalize());
     }
     let along = other.side.vector();
     let length = along.norm();

@@ -23,13 +23,14 @@ const MAX_REPORTED_GAPS: f64 = 30.0;
 /// Edges whose directions differ by less than this, in radians, count as parallel however small the gap is.
 ///
 /// Directions of short edges are rounded to about 10⁻¹²; the value leaves a reserve for edges far from the origin.
-const PARALLEL_TOL: f64 = 1e-9;
+pub(super) const PARALLEL_TOL: f64 = 1e-9;
 
 /// The value of [`direction`] after a full turn.
 const FULL_TURN: f64 = 4.0;
 
-/// Edges with a gap above this fraction of a block's size are not near misses: they were not drawn to touch.
-const MAX_GAP_PER_SIZE: f64 = 0.01;
+/// Bodies with a gap above this fraction of a block's size, or of the diameter of a circle, are not near misses: they were
+/// not drawn to touch.
+pub(in crate::mechanics) const MAX_GAP_PER_SIZE: f64 = 0.01;
 
 /// Common segments are ignored, and not reported as too short, if their length is at most this fraction of
 /// [`Tolerance::min_length`].

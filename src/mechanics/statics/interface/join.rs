@@ -9,13 +9,14 @@ use std::collections::BTreeMap;
 use super::{Interface, normal_across};
 use crate::geometry::{Point, Tolerance, cross};
 
-/// Two segments on one line continue each other if the distance of their ends is at most this multiple of the
-/// contact tolerance.
+/// Two points count as one if their distance is at most this multiple of the contact tolerance: ends of segments on one
+/// line, which then continue each other, points at which a corner or a circle touches another body, and the corners at
+/// the end of a joint.
 ///
 /// Each end of a segment comes from corners that are displaced by up to the tolerance each. If the multiple were ten
 /// times smaller, the segments of one rounded joint would not be joined. If it were ten times larger, the two feet of
 /// a body would be joined across the hollow between them. This changes the interfaces that are drawn, but no verdict.
-pub(super) const JOIN_REACH: f64 = 4.0;
+pub(in crate::mechanics) const JOIN_REACH: f64 = 4.0;
 
 /// Segments whose normals differ by more than this, in radians, are not on one line.
 ///

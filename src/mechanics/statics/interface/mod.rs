@@ -16,6 +16,8 @@ mod gap_segment;
 #[cfg(test)]
 mod tests;
 
+pub(in crate::mechanics) use edge::MAX_GAP_PER_SIZE;
+pub(in crate::mechanics) use join::JOIN_REACH;
 pub(crate) use lattice::LatticeEdges;
 pub(crate) use pinned::{ContactsByBody, pinning_stone};
 
@@ -205,20 +207,13 @@ impl Interfaces {
 
     /// Returns the interfaces of a frame: those whose bodies are both present and are not kept apart by a stone that is
     /// present.
-    pub fn in_frame<'a>(&'a self, scene: &Scene, frame: &Frame) -> Vec<&'a Interface> {
-        let mut placed = vec![false; scene.blocks.len()];
-        for block in &frame.placed {
-            placed[block.0] = true;
-        }
-        let is_present = |body: BodyId| match body {
-            BodyId::Ground(_) => true,
-            BodyId::Block(id) => placed[id.0],
-        };
+    pub fn in_frame(&self, frame: &Frame) -> Vec<&Interface> {
+        let is_present = frame.presence();
         let is_open = |i: &Interface| {
             let mut pinned_gaps = self.pinned_gaps.iter();
-            pinned_gaps.any(|p| is_present(BodyId::Block(p.stone)) && p.contains(i))
+            pinned_gaps.any(|p| is_present(&BodyId::Block(p.stone)) && p.contains(i))
         };
-        self.all.iter().filter(|i| is_present(i.bodies[0]) && is_present(i.bodies[1])).filter(|i| !is_open(i)).collect()
+        self.all.iter().filter(|i| i.bodies.iter().all(&is_present) && !is_open(i)).collect()
     }
 }
 

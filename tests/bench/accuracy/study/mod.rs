@@ -138,7 +138,7 @@ impl<'s> Task<'s> {
     fn new(scene: &'s Scene, number: usize) -> Task<'s> {
         let frame = &scene.frames()[number];
         let found = Interfaces::new(scene);
-        let interfaces = found.in_frame(scene, frame);
+        let interfaces = found.in_frame(frame);
         let (assembly, _) = effect::assemble(&FrameContext { scene, frame, interfaces: &interfaces });
         let programs = assembly
             .components()

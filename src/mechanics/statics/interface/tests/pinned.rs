@@ -112,7 +112,7 @@ fn a_frame_has_the_contacts_of_its_blocks_except_in_gaps_that_its_stones_keep_op
     assert_eq!(found.pinned_gaps[0].stone, BlockId(2));
     let block = |n: usize| BodyId::Block(BlockId(n));
     let pairs = |placed: &[usize]| {
-        let list = found.in_frame(&scene, &frame(placed));
+        let list = found.in_frame(&frame(placed));
         let edges = list.iter().filter(|i| i.kind == ContactKind::Edge);
         edges.map(|i| i.bodies).collect::<Vec<_>>()
     };
