@@ -5,14 +5,15 @@
 //! load factor. It is proved like every margin. A motion with which a state falls gives a lower bound for each block, so
 //! that only blocks with small bounds are tried.
 
-use super::margin::{End, Interval, MarginKind, MarginKinds};
+use super::capacity::decided;
+use super::margin::{End, Interval, MarginKind, Setting, interval_of};
 use super::removable::{NotFound, least_hold};
-use super::{Analysis, FrameAnalysis, Options, Verdict};
-use crate::geometry::{Point, Polygon, Vector, quarter_turn};
+use super::{FrameAnalysis, Options, Verdict};
+use crate::geometry::{Point, Polygon, Vector};
 use crate::mechanics::proof::{Motion, net_power};
-use crate::mechanics::scene::{BlockId, BodyId, Case, Load, Scene};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::mechanics::solve::DeadlineGuard;
-use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::assembly::{Assembly, LoadVector};
 use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::{Interface, Interfaces};
 use crate::text::Word;
@@ -83,11 +84,13 @@ pub(super) fn add_reach(scene: &Scene, frames: &mut [FrameAnalysis], options: &O
     let Some(target) = options.reach else { return };
     let _until = DeadlineGuard::new(options.deadline);
     for (number, found) in frames.iter_mut().enumerate() {
-        let states = scene.alone(number).map(|alone| states(&alone, target, *options)).unwrap_or_default();
-        let is_undecided = states.iter().any(|state| state.verdict == Verdict::Undecided);
+        let states = scene.alone(number).map(|alone| states(&alone, target)).unwrap_or_default();
+        // The frame is also undecided if its verdict depends on gaps.
+        let is_open = |verdict: Verdict| verdict == Verdict::Undecided;
+        let is_undecided = is_open(found.verdict) || states.iter().any(|state| is_open(state.verdict));
         let worst = states.iter().map(|state| state.verdict).max().unwrap_or(Verdict::Stable);
         let verdict = if is_undecided { Verdict::Undecided } else { worst };
-        let search = Search { states, options: *options };
+        let search = Search { states };
         let mut changes = Vec::new();
         for what in if verdict == Verdict::Unstable { ChangeKind::all() } else { Vec::new() } {
             match search.change(what) {
@@ -103,9 +106,12 @@ pub(super) fn add_reach(scene: &Scene, frames: &mut [FrameAnalysis], options: &O
 
 /// A frame as it is or at the target.
 struct State {
+    /// The scene in its load case, and what changes at the target.
     scene: Scene,
+    setting: Setting,
     /// The force of each newton of weight.
     pull: Vector,
+    /// The frame with these changes, in which all loads are fixed.
     assembly: Assembly,
     verdict: Verdict,
     /// The motion with which the frame falls, and the power of all forces along it.
@@ -114,45 +120,29 @@ struct State {
 }
 
 /// Returns the states of a scene with one frame.
-fn states(scene: &Scene, target: Reach, options: Options) -> Vec<State> {
+fn states(scene: &Scene, target: Reach) -> Vec<State> {
     let bases = match scene.cases.as_slice() {
         [] => vec![(scene.clone(), 1.0)],
         cases => cases.iter().map(|case| (scene.in_case(case), case.weights)).collect(),
     };
-    let sides = [-1.0, 1.0];
-    // The angle by which gravity turns to the right, and the factors on weights and loads.
-    let mut changes = vec![(0.0, 1.0, 1.0)];
-    match target.kind {
-        MarginKind::LoadFactor => changes.push((0.0, 1.0, target.value)),
-        MarginKind::HorizontalLoad => {
-            let (angle, heavier) = (libm::atan(target.value), libm::hypot(1.0, target.value));
-            changes.extend(sides.map(|side| (side * angle, heavier, 1.0)));
-        }
-        _ => changes.extend(sides.map(|side| (side * target.value.to_radians(), 1.0, 1.0))),
-    }
-    let mut states = Vec::new();
-    for (base, weights) in bases {
-        for (angle, heavier, factor) in &changes {
-            let mut loads = vec![1.0; base.loads.iter().map(|load| load.entry + 1).max().unwrap_or(0)];
-            base.loads.iter().filter(|load| !load.is_fixed).for_each(|load| loads[load.entry] = *factor);
-            let mut scene = base.in_case(&Case { id: String::new(), weights: *heavier, loads });
-            scene.loads.iter_mut().for_each(|load| load.is_fixed = true);
-            let (sin, cos) = libm::sincos(*angle);
-            scene.gravity = scene.gravity * cos + quarter_turn(scene.gravity) * sin;
-            states.push(State::new(scene, heavier * weights, options));
-        }
-    }
-    states
+    let sides: &[f64] = if target.kind == MarginKind::LoadFactor { &[1.0] } else { &[-1.0, 1.0] };
+    let changes = sides.iter().map(|side| Setting::at(target.kind, side * target.value));
+    let settings: Vec<Setting> = std::iter::once(Setting::default()).chain(changes).collect();
+    let each = bases.iter().flat_map(|base| settings.iter().map(move |setting| (base, *setting)));
+    each.map(|((scene, weights), setting)| State::new(scene.clone(), *weights, setting)).collect()
 }
 
 impl State {
-    fn new(scene: Scene, weights: f64, options: Options) -> State {
-        let assembly = effect::assembly_of(&scene, &scene.frames[0], &Interfaces::new(&scene));
-        let found = Analysis::with(&scene, &options.only_verdict()).frames.pop();
-        let (verdict, motion) =
-            found.map_or((Verdict::Undecided, Vec::new()), |found| (found.verdict, found.mechanism));
+    fn new(scene: Scene, weights: f64, setting: Setting) -> State {
+        let given = effect::assembly_of(&scene, &scene.frames[0], &Interfaces::new(&scene));
+        let mut assembly = setting.apply(&given);
+        for body in &mut assembly.bodies {
+            (body.fixed, body.listed) = (body.given(assembly.load_factor), LoadVector::ZERO);
+        }
+        let assembly = assembly.with_load_factor(1.0);
+        let (verdict, motion) = decided(&assembly.components());
         let power = net_power(&assembly, &motion);
-        State { pull: scene.down() * weights, scene, assembly, verdict, motion, power }
+        State { pull: assembly.pull * weights, scene, setting, assembly, verdict, motion, power }
     }
 
     fn centre(&self, block: BlockId) -> Point {
@@ -179,30 +169,18 @@ impl State {
     }
 
     /// Returns the interval of a margin while forces on blocks act too, which the load factor multiplies.
-    fn interval(&self, kind: MarginKind, forces: &[(BlockId, Vector)], options: Options) -> Interval {
-        let mut scene = self.scene.clone();
-        let entry = scene.loads.len();
-        scene.loads.extend(forces.iter().map(|(block, force)| Load {
-            block: *block,
-            force: *force,
-            at: self.centre(*block),
-            torque: 0.0,
-            is_fixed: false,
-            entry,
-            spread: None,
-            at_centroid: true,
-        }));
-        let options = Options { margins: true, margin_kinds: MarginKinds::new(&[kind]), ..options.only_verdict() };
-        let frame = Analysis::with(scene, &options).frames.pop();
-        let found = frame.and_then(|frame| frame.margins).map(|margins| margins.intervals);
-        let found = found.and_then(|own| if kind == MarginKind::Friction { own.friction } else { own.load_factor });
-        found.unwrap_or(Interval::Undecided)
+    fn interval(&self, kind: MarginKind, forces: &[(BlockId, Vector)]) -> Interval {
+        let mut assembly = self.assembly.clone();
+        for body in &mut assembly.bodies {
+            let own = forces.iter().filter(|(block, _)| *block == body.block).map(|(_, force)| force);
+            body.listed.force = own.sum();
+        }
+        interval_of(&assembly.with_load_factor(1.0), kind)
     }
 }
 
 struct Search {
     states: Vec<State>,
-    options: Options,
 }
 
 impl Search {
@@ -212,7 +190,7 @@ impl Search {
         let placed = &self.states[0].scene.frames[0].placed;
         match what {
             ChangeKind::Friction => {
-                let each = self.states.iter().map(|state| state.interval(MarginKind::Friction, &[], self.options));
+                let each = self.states.iter().map(|state| state.interval(MarginKind::Friction, &[]));
                 let each: Vec<Interval> = each.collect();
                 change.least = least_of_all(&each, 1.0)?;
                 let exclusions =
@@ -284,7 +262,7 @@ impl Search {
         let states = self.states.iter().filter(|state| acts_always || state.verdict == Verdict::Unstable);
         let each = states.map(|state| {
             let forces: Vec<_> = state.unit(what, blocks).iter().map(|(b, force)| (*b, *force * size)).collect();
-            match state.interval(MarginKind::LoadFactor, &forces, self.options) {
+            match state.interval(MarginKind::LoadFactor, &forces) {
                 Interval::Between { low, .. } if !acts_always => Interval::Between { low, high: End::Unbounded },
                 interval => interval,
             }
@@ -298,8 +276,7 @@ impl Search {
         let stands = |hundredths: u32| {
             self.states.iter().all(|state| {
                 let scene = thickened(&state.scene, f64::from(hundredths) * 1e-2);
-                let verdict = |scene: Scene| Analysis::with(scene, &self.options.only_verdict()).verdict();
-                scene.is_some_and(|scene| verdict(scene) == Verdict::Stable)
+                scene.is_some_and(|scene| State::new(scene, 1.0, state.setting).verdict == Verdict::Stable)
             })
         };
         let mut found = [125, 150, 200, 300, 400].into_iter().find(|factor| stands(*factor))?;

@@ -9,8 +9,7 @@
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-use super::capacity::{capacity_of_assembly, with_grip};
-use super::decide::{LimitDistance, ProofCache, decide_verdict};
+use super::capacity::{capacity_of_assembly, decided, with_grip};
 use super::{Analysis, FrameAnalysis, Options, Verdict};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::proof::{Motion, net_power};
@@ -149,7 +148,7 @@ pub(super) fn least_hold(
         }
         // A robot without limits shows whether any force suffices.
         let unlimited = [f64::INFINITY, f64::INFINITY, 0.0];
-        match decided(&with_grip(given, body, at, unlimited)) {
+        match decided(&with_grip(given, body, at, unlimited).components()) {
             (Verdict::Stable, _) => {}
             (Verdict::Unstable, motion) => {
                 exclude(&mut open, &motion);
@@ -164,13 +163,6 @@ pub(super) fn least_hold(
         }
     }
     Ok(best)
-}
-
-/// Returns the worst verdict of all components of an assembly, and the motion with which such a component falls.
-fn decided(assembly: &Assembly) -> (Verdict, Vec<Motion>) {
-    let components = assembly.components();
-    let verdicts = components.iter().map(|c| decide_verdict(c, LimitDistance::Unknown, &mut ProofCache::default()));
-    verdicts.max_by_key(|(verdict, _)| *verdict).unwrap_or((Verdict::Stable, Vec::new()))
 }
 
 impl Candidate {

@@ -146,24 +146,18 @@ pub(super) fn capacity_of_assembly(
     block: BlockId,
     points: &[Point],
 ) -> Result<LoadCapacity, CapacityError> {
-    let (mut own, mut falls) = (None, None);
-    for component in assembly.components() {
-        if let Some(body) = component.bodies.iter().position(|b| b.block == block) {
-            own = Some((component, body));
-            continue;
-        }
-        // The component does not contain the block. It must stand without the additional force.
-        match decide_verdict(&component, LimitDistance::Unknown, &mut ProofCache::default()) {
-            (Verdict::Stable, _) => {}
-            (Verdict::Unstable, motion) => falls = Some(motion),
-            (Verdict::Undecided, _) if is_late() => return Err(CapacityError::Late),
-            (Verdict::Undecided, _) => return Err(CapacityError::Undecided),
-        }
+    let holds = |component: &Assembly| component.bodies.iter().position(|body| body.block == block);
+    let (own, others): (Vec<Assembly>, Vec<Assembly>) =
+        assembly.components().into_iter().partition(|component| holds(component).is_some());
+    // The components that do not contain the block must stand without the additional force.
+    match decided(&others) {
+        (Verdict::Stable, _) => {}
+        (Verdict::Unstable, motion) => return Ok(LoadCapacity::empty(block, points.to_vec(), motion)),
+        (Verdict::Undecided, _) if is_late() => return Err(CapacityError::Late),
+        (Verdict::Undecided, _) => return Err(CapacityError::Undecided),
     }
-    let (component, body) = own.ok_or(CapacityError::NotPlaced)?;
-    if let Some(mechanism) = falls {
-        return Ok(LoadCapacity::empty(block, points.to_vec(), mechanism));
-    }
+    let component = own.into_iter().next().ok_or(CapacityError::NotPlaced)?;
+    let body = holds(&component).ok_or(CapacityError::NotPlaced)?;
     let probe = Probe::new(&component, body, points);
     let exact = |found| {
         let capacity = region::capacity(found, &probe, block, points);
@@ -183,9 +177,18 @@ pub(super) fn capacity_of_assembly(
         Some(found) => exact(found).map_err(undecided),
         // No force was found, for one of two reasons: no force on the block balances the loads, or the solver failed.
         // Decide the component with an unlimited grip at the point: if it falls even then, the set is empty.
-        None => match decide_verdict(&probe.held, LimitDistance::Unknown, &mut ProofCache::default()) {
+        None => match decided(std::slice::from_ref(&probe.held)) {
             (Verdict::Unstable, motion) => Ok(LoadCapacity::empty(block, points.to_vec(), motion)),
             _ => Err(undecided(CapacityError::Undecided)),
         },
     }
+}
+
+/// Returns the worst verdict on several components of a frame, and the motions with which components fall.
+pub(super) fn decided(components: &[Assembly]) -> (Verdict, Vec<Motion>) {
+    let found = components.iter().map(|own| decide_verdict(own, LimitDistance::Unknown, &mut ProofCache::default()));
+    found.fold((Verdict::Stable, Vec::new()), |(worst, mut all), (verdict, motion)| {
+        all.extend(motion);
+        (worst.max(verdict), all)
+    })
 }

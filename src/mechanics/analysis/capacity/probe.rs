@@ -109,13 +109,7 @@ impl Probe {
     /// without loads may be added to any force that it carries with loads. Finite limits of robots are set to 0;
     /// unlimited robots stay.
     pub fn without_loads(&self) -> Probe {
-        let unloaded = Setting {
-            along: 0.0,
-            loads: 0.0,
-            has_fixed_loads: false,
-            limits: LimitChange::FiniteToZero,
-            ..Setting::default()
-        };
+        let unloaded = Setting { limits: LimitChange::FiniteToZero, ..Setting::UNLOADED };
         let given = unloaded.apply(&self.given);
         let points = [self.at; 2];
         let count = if self.has_torque { 2 } else { 1 };

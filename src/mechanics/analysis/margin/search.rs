@@ -156,9 +156,8 @@ impl<'a> Path<'a> {
             along: outward * (to.along - from.along),
             across: outward * (to.across - from.across),
             loads: outward * (to.loads - from.loads),
-            has_fixed_loads: false,
             limits: LimitChange::FiniteToZero,
-            ..from
+            ..Setting::UNLOADED
         }
     }
 

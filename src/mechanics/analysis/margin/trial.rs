@@ -67,19 +67,22 @@ pub(in crate::mechanics::analysis) enum LimitChange {
 
 impl Default for Setting {
     fn default() -> Setting {
-        Setting {
-            friction: None,
-            kernel: None,
-            along: 1.0,
-            across: 0.0,
-            loads: 1.0,
-            has_fixed_loads: true,
-            limits: LimitChange::None,
-        }
+        Setting { along: 1.0, loads: 1.0, has_fixed_loads: true, ..Setting::UNLOADED }
     }
 }
 
 impl Setting {
+    /// No weights and no loads act.
+    pub const UNLOADED: Setting = Setting {
+        friction: None,
+        kernel: None,
+        along: 0.0,
+        across: 0.0,
+        loads: 0.0,
+        has_fixed_loads: false,
+        limits: LimitChange::None,
+    };
+
     /// Returns the setting for a value of the parameter of a margin; unchanged for [`MarginKind::Robots`].
     pub fn at(kind: MarginKind, value: f64) -> Setting {
         let given = Setting::default();

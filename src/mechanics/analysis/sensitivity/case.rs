@@ -1,6 +1,6 @@
 //! [`Case`]: a component exactly at an end of the interval in which it stands, where it begins to fall.
 
-use crate::geometry::{cross, quarter_turn, sin_cos_degrees};
+use crate::geometry::cross;
 use crate::mechanics::analysis::margin::{MarginKind, Setting};
 use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::Motion;
@@ -39,22 +39,18 @@ impl Case<'_> {
     /// Returns the derivative of the load on each body with respect to the parameter, at `value`. `None` if the loads
     /// do not depend on the parameter.
     pub fn growth(&self, value: f64) -> Option<Vec<LoadVector>> {
-        let down = self.component.pull;
-        let along = match self.kind {
-            MarginKind::LoadFactor => {
-                let bodies = self.component.bodies.iter();
-                return Some(bodies.map(|body| body.listed).collect());
-            }
-            MarginKind::HorizontalLoad => quarter_turn(down),
+        let growth = match self.kind {
+            MarginKind::LoadFactor => Setting { loads: 1.0, ..Setting::UNLOADED },
+            MarginKind::HorizontalLoad => Setting { across: 1.0, ..Setting::UNLOADED },
             MarginKind::Tilt => {
-                let (sin, cos) = sin_cos_degrees(value);
-                (quarter_turn(down) * cos - down * sin) * (std::f64::consts::PI / 180.0)
+                // Gravity grows across its direction.
+                let Setting { along, across, .. } = Setting::tilted(value + 90.0, 1_f64.to_radians());
+                Setting { along, across, ..Setting::UNLOADED }
             }
             MarginKind::Friction | MarginKind::Kernel | MarginKind::Robots => return None,
         };
-        let bodies = self.component.bodies.iter();
-        let growth = bodies.map(|body| LoadVector { force: along * body.weight, moment: 0.0 });
-        Some(growth.collect())
+        let bodies = growth.apply(self.component).bodies;
+        Some(bodies.iter().map(|body| body.load).collect())
     }
 
     /// Returns a load on each body that makes the component fall: the change of the loads if the parameter goes beyond
