@@ -295,3 +295,25 @@ fn a_margin_requested_alone_has_the_same_value() {
     assert_eq!(alone.tilt.left, Margin::NotAsked);
     assert_eq!(alone.horizontal_load.right, Margin::NotAsked);
 }
+
+/// Mechanisms on both sides exclude half-lines of horizontal loads that overlap. They have no other ends that could meet.
+#[test]
+fn a_tower_may_fall_under_every_horizontal_load() {
+    let stones = [
+        (0.125, 0.0, 2.0, 1.0, 3.0),
+        (0.0, 1.0, 2.0, 1.0, 7.0),
+        (0.25, 2.0, 2.0, 1.0, 0.09),
+        (0.5, 3.0, 2.0, 1.0, 2e-10),
+        (0.125, 4.0, 2.0, 1.0, 0.001),
+        (2.124_511_718_75, 5.0, 0.001_953_125, 0.001_953_125, 0.007),
+        (0.124_968_528_747_558_6, 5.0, 0.000_061_035_156_25, 0.000_061_035_156_25, 2.0),
+    ];
+    let stones = stones.into_iter().enumerate();
+    let blocks =
+        stones.map(|(i, (x, y, width, height, weight))| block(&i.to_string(), rectangle(x, y, width, height), weight));
+    let mut tower = on_floor(0.5, blocks.collect());
+    tower["gravity"] = json!([-5, -12]);
+    tower["loads"] = json!([{ "block": "6", "force": [1e-6, 0] }]);
+    let found = margins(&tower).horizontal_load;
+    assert_eq!([&found.left, &found.right], [&Margin::None; 2]);
+}
