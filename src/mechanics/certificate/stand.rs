@@ -1,6 +1,6 @@
 //! Forces with slack for the proof that a frame stands, and the order in which the residuals of its bodies are corrected.
 
-use std::collections::BinaryHeap;
+use std::collections::{BTreeMap, BinaryHeap};
 
 use super::check::LARGEST_STEP;
 use super::{FrameForm, Step};
@@ -50,42 +50,32 @@ pub(super) fn slack_forces(assembly: &Assembly) -> Option<Vec<[f64; 3]>> {
 /// Returns the forces of all components in the order of [`listed_forces`], from the forces of each program and what is
 /// added to each of its normal forces. Robots keep some slack.
 fn forces_of(assembly: &Assembly, solve: impl Fn(&mut Program) -> Option<(Amounts, f64)>) -> Option<Vec<[f64; 3]>> {
-    let mut forces = vec![[0.0; 3]; assembly.contacts.len() + assembly.grips.len()];
+    let count = assembly.contacts.len();
+    let mut forces = vec![[0.0; 3]; count + assembly.grips.len()];
+    let of_contact: BTreeMap<_, _> = assembly.contacts.iter().map(|c| c.interface).zip(0..).collect();
+    let of_grip: BTreeMap<_, _> = assembly.grips.iter().map(|g| g.hold).zip(count..).collect();
     for component in assembly.components() {
         let mut program = Program::new(&component, Scale::from_assembly(&component));
         for limit in program.grips.iter_mut().flat_map(|grip| &mut grip.limits) {
             *limit *= 1.0 - SLACK_OF_ROBOTS;
         }
+        let contacts = component.contacts.iter().map(|contact| of_contact[&contact.interface]);
+        let grips = component.grips.iter().map(|grip| of_grip[&grip.hold]);
+        let places: Vec<usize> = contacts.chain(grips).collect();
         let (amounts, slack) = solve(&mut program)?;
-        put(&mut forces, assembly, &component, &program, &amounts, slack);
+        let unit = program.scale.force;
+        let (contacts, grips) = places.split_at(component.contacts.len());
+        for (k, (place, contact)) in contacts.iter().zip(&component.contacts).enumerate() {
+            let points = contact.points_in_use();
+            let more = |point: usize| if point < points { slack } else { 0.0 };
+            let [n1, n2] = [0, 1].map(|i| (amounts.normal[k][i] + more(i)) * unit);
+            forces[*place] = [n1, n2, amounts.friction[k] * unit];
+        }
+        for (place, [x, y, moment]) in grips.iter().zip(&amounts.grip) {
+            forces[*place] = [x * unit, y * unit, moment * program.scale.moment()];
+        }
     }
     Some(forces)
-}
-
-/// Puts the forces of a component, in newtons, at their places in the frame. `slack` is added to each normal force.
-fn put(
-    forces: &mut [[f64; 3]],
-    assembly: &Assembly,
-    component: &Assembly,
-    program: &Program,
-    amounts: &Amounts,
-    slack: f64,
-) {
-    let unit = program.scale.force;
-    for (k, contact) in component.contacts.iter().enumerate() {
-        let place = assembly.contacts.iter().position(|c| c.interface == contact.interface);
-        let points = contact.points_in_use();
-        let more = |point: usize| if point < points { slack } else { 0.0 };
-        let [n1, n2] = [0, 1].map(|i| (amounts.normal[k][i] + more(i)) * unit);
-        if let Some(place) = place {
-            forces[place] = [n1, n2, amounts.friction[k] * unit];
-        }
-    }
-    for (grip, [x, y, moment]) in component.grips.iter().zip(&amounts.grip) {
-        if let Some(place) = assembly.grips.iter().position(|g| g.hold == grip.hold) {
-            forces[assembly.contacts.len() + place] = [x * unit, y * unit, moment * program.scale.moment()];
-        }
-    }
 }
 
 /// A component of a force that may change, with the force and moment about the body's centroid that it exerts, and its
