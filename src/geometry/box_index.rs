@@ -12,7 +12,7 @@
 //! Reference: Ericson, Real-Time Collision Detection, 2005, chapters 6 (bounding-volume hierarchies) and 7 (sorted
 //! lists).
 
-use super::Point;
+use super::{Edge, Point, Vector, quarter_turn};
 
 /// The largest number of items that are kept in a sorted list; more are put into a tree.
 const MAX_SCANNED_ITEMS: usize = 64;
@@ -27,10 +27,15 @@ pub(crate) struct Aabb<const D: usize = 2> {
     pub(crate) max: [f64; D],
 }
 
-impl Aabb {
-    /// Returns the box extended by `margin` metres on each side.
-    pub(crate) fn grown(self, margin: f64) -> Aabb {
-        Aabb { min: self.min.map(|min| min - margin), max: self.max.map(|max| max + margin) }
+impl Aabb<3> {
+    /// Returns the ranges of x, y and the dot product with `across` over the points. Long parallel sides have disjoint
+    /// ranges if `across` is perpendicular to them. The third range contains the error of rounding.
+    pub(crate) fn with_direction(points: &[Point], across: Vector) -> Aabb<3> {
+        points.iter().fold(Aabb::EMPTY, |bounds, p| {
+            let (x, y) = (across.x * p.x, across.y * p.y);
+            let error = 2.0 * f64::EPSILON * (x.abs() + y.abs());
+            bounds.union(&Aabb { min: [p.x, p.y, x + y - error], max: [p.x, p.y, x + y + error] })
+        })
     }
 }
 
@@ -48,6 +53,11 @@ impl Aabb<4> {
 impl<const D: usize> Aabb<D> {
     /// The box that contains no point: the neutral element of [`Aabb::union`].
     const EMPTY: Aabb<D> = Aabb { min: [f64::INFINITY; D], max: [f64::NEG_INFINITY; D] };
+
+    /// Returns the box extended by `margin` on each side.
+    pub(crate) fn grown(self, margin: f64) -> Aabb<D> {
+        Aabb { min: self.min.map(|min| min - margin), max: self.max.map(|max| max + margin) }
+    }
 
     /// True if the two boxes share at least one point. Boxes that only touch share points.
     pub(crate) fn intersects(&self, other: &Aabb<D>) -> bool {
@@ -67,6 +77,14 @@ impl<const D: usize> Aabb<D> {
     fn doubled_centre(&self, d: usize) -> f64 {
         self.min[d] + self.max[d]
     }
+}
+
+/// Returns a unit vector perpendicular to the longest of these edges; the x axis if there are none with a length.
+pub(crate) fn across_longest(edges: impl Iterator<Item = Edge>) -> Vector {
+    let longest = edges.map(|e| e.vector()).fold(Vector::zeros(), |longest, side| {
+        if side.norm_squared() > longest.norm_squared() { side } else { longest }
+    });
+    quarter_turn(longest).try_normalize(0.0).unwrap_or(Vector::x())
 }
 
 /// Items that can be searched by their bounding boxes.

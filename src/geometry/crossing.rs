@@ -5,6 +5,7 @@
 //! does not depend on rounding; only the reported point is rounded. Reference: de Berg et al., Computational Geometry,
 //! 2008, chapter 2, for the test of two segments.
 
+use super::box_index::across_longest;
 use super::edge::{Edge, orientation, ring_edges};
 use super::{Aabb, BoxIndex, Point};
 
@@ -37,10 +38,6 @@ struct Side {
 }
 
 impl Side {
-    fn bounds(&self) -> Aabb {
-        self.edge.bounds()
-    }
-
     /// Returns a point that this side and a later side of the polygon share; `None` if they share none. Neighbouring
     /// sides always share a corner; for them, returns this corner only if one side folds back onto the other.
     fn forbidden_contact(&self, later: &Side) -> Option<Point> {
@@ -69,7 +66,11 @@ pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
             edge,
         }));
     }
-    let index = (sides.len() > MAX_SIDES_WITHOUT_INDEX).then(|| BoxIndex::new(sides.clone(), Side::bounds));
+    let index = (sides.len() > MAX_SIDES_WITHOUT_INDEX).then(|| {
+        let across = across_longest(sides.iter().map(|side| side.edge));
+        let around = move |side: &Side| Aabb::with_direction(&[side.edge.from, side.edge.to], across);
+        (BoxIndex::new(sides.clone(), around), around)
+    });
     let mut found: Vec<Crossing> = Vec::new();
     for (number, a) in sides.iter().enumerate() {
         let before = found.len();
@@ -79,11 +80,14 @@ pub(super) fn crossings(rings: &[Vec<Point>]) -> Vec<Crossing> {
             }
         };
         // Test each pair only once: skip the sides that come before `a` in the list.
-        let bounds = a.bounds();
         match &index {
-            None => (sides[number + 1..].iter()).filter(|b| bounds.intersects(&b.bounds())).for_each(test),
-            Some(index) => {
-                (index.intersecting(bounds)).filter(|b| (a.ring, a.corner) < (b.ring, b.corner)).for_each(&mut test)
+            None => {
+                let bounds = a.edge.bounds();
+                (sides[number + 1..].iter()).filter(|b| bounds.intersects(&b.edge.bounds())).for_each(test);
+            }
+            Some((index, around)) => {
+                let near = index.intersecting(around(a));
+                near.filter(|b| (a.ring, a.corner) < (b.ring, b.corner)).for_each(&mut test);
             }
         }
         // The index returns candidates in no particular order. Sort the crossings, so that the result does not depend

@@ -13,7 +13,8 @@ use std::borrow::Cow;
 use std::ops::{Add, Sub};
 use std::sync::OnceLock;
 
-use super::{Bounds, Point, Polygon, Vector, convex_hull, cross, quarter_turn};
+use super::box_index::across_longest;
+use super::{Aabb, Bounds, BoxIndex, Point, Polygon, Vector, convex_hull, cross, quarter_turn};
 
 /// A polygon that is cut into convex pieces when they are first needed: the polygon itself if it is convex, otherwise
 /// triangles.
@@ -35,6 +36,13 @@ const FEW_CORNERS: usize = 2000;
 /// If the hull with fewer sides has more sides than this, the hulls are not compared, because the time grows with the
 /// product of the two numbers of sides.
 const MAX_HULL_SIDES: usize = 500;
+
+/// If a polygon has more pieces than this, an index finds the pieces of the other polygon near each of them.
+const MAX_PIECES_WITHOUT_INDEX: usize = 32;
+
+/// The search ends after this number of overlapping pairs of pieces. Two combs that cross have a pair for every two
+/// teeth.
+const MAX_PAIRS: usize = 1_000_000;
 
 /// A convex piece with the data for two quick tests: its bounds, and its extent across its longest side.
 ///
@@ -91,6 +99,8 @@ pub struct Overlap {
     pub at: Point,
     /// The largest depth of any pair of convex pieces, in metres.
     pub depth: f64,
+    /// Whether there are so many overlapping pieces that `area` and `depth` are only lower bounds.
+    pub at_least: bool,
 }
 
 impl<'p> ConvexPieces<'p> {
@@ -182,9 +192,21 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
     }
     let mut depth: f64 = 0.0;
     let mut overlapping = Vec::new();
+    // Pieces that only touch do not overlap.
+    let touch = -1e-14 * a.bounds.diagonal();
+    let index = (a.pieces().len() > MAX_PIECES_WITHOUT_INDEX).then(|| {
+        let across = across_longest(a.polygon.edges());
+        let around = move |piece: &Piece| Aabb::with_direction(&piece.corners, across);
+        (BoxIndex::new((0..b.pieces().len()).collect(), |k: &usize| around(&b.pieces()[*k])), around)
+    });
+    let mut near: Vec<usize> = (0..b.pieces().len()).collect();
     for one in a.pieces() {
-        let near = (b.pieces().iter()).filter(|two| one.bounds.intersects(two.bounds));
-        for two in near {
+        if let Some((index, around)) = &index {
+            near.clear();
+            near.extend(index.intersecting(around(one).grown(touch)));
+            near.sort_unstable();
+        }
+        for two in near.iter().map(|k| &b.pieces()[*k]).filter(|two| one.bounds.intersects(two.bounds)) {
             if one.is_separated_from(two) || two.is_separated_from(one) {
                 continue;
             }
@@ -198,6 +220,9 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
                 overlapping.push((&one.corners, &two.corners));
             }
         }
+        if overlapping.len() > MAX_PAIRS {
+            break;
+        }
     }
     if depth <= gap {
         return None;
@@ -205,7 +230,8 @@ pub fn overlap(a: &ConvexPieces<'_>, b: &ConvexPieces<'_>, gap: f64) -> Option<O
     // Compute the area and the centroid of the intersection relative to a corner of `a`, so that few digits are lost.
     let base = a.pieces().first()?.corners[0];
     let (area, moment) = common_area(&overlapping, base);
-    (area > 0.0).then(|| Overlap { area, at: base + moment / area, depth })
+    let at_least = overlapping.len() > MAX_PAIRS;
+    (area > 0.0).then(|| Overlap { area, at: base + moment / area, depth, at_least })
 }
 
 /// Two convex pieces that overlap.

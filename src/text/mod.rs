@@ -5,6 +5,8 @@
 //! module return harmless text, on one line except for JSON. Except in JSON, control characters become spaces or
 //! [`HIDDEN`], so that the reader sees where they were.
 
+use std::borrow::Cow;
+
 mod spelling;
 mod word;
 
@@ -177,11 +179,11 @@ pub fn shell(word: &str) -> String {
 /// Returns JSON text with the same values. Characters that a terminal would interpret are replaced by escapes.
 ///
 /// In valid JSON, such characters occur only inside strings, where escapes are allowed.
-pub fn json(text: &str) -> String {
+pub fn json(text: &str) -> Cow<'_, str> {
     // Most text has no character to replace, and testing bytes is much faster than decoding characters.
     let is_plain = |b: &u8| matches!(b, b' '..=b'~' | b'\n' | b'\t' | b'\r');
     if text.as_bytes().iter().all(is_plain) {
-        return text.to_string();
+        return Cow::Borrowed(text);
     }
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -192,7 +194,7 @@ pub fn json(text: &str) -> String {
             out.push(c);
         }
     }
-    out
+    Cow::Owned(out)
 }
 
 /// Escapes text for a GitHub annotation: `%` becomes `%25`, and a line break becomes `%0A`. Other characters are

@@ -21,13 +21,18 @@ struct Ran {
 
 /// Runs the program on a file. The system limits its time and memory.
 fn run(name: &str, text: &str, arguments: &str) -> Ran {
+    run_within(1_300_000, name, text, arguments)
+}
+
+/// Runs the program on a file, with at most this number of kilobytes of address space.
+fn run_within(kilobytes: usize, name: &str, text: &str, arguments: &str) -> Ran {
     assert!(text.len() < 1_000_000, "{name} has {} bytes", text.len());
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join(name), text).expect("writable");
     let program = env!("CARGO_BIN_EXE_drystone");
     // The limit of ten seconds holds for an optimised build; the checks of a debug build take several times as long.
     let seconds = if cfg!(debug_assertions) { 60 } else { 10 };
-    let line = format!("ulimit -t {seconds}; ulimit -v 1300000; exec '{program}' {arguments}");
+    let line = format!("ulimit -t {seconds}; ulimit -v {kilobytes}; exec '{program}' {arguments} >/dev/null");
     let ran = Command::new("sh")
         .args(["-c", &line])
         .current_dir(folder.path())
@@ -232,5 +237,94 @@ fn a_time_limit_leaves_overlaps_undecided() {
         let doubts = &analysis.frames[0].doubts;
         let is_late = doubts.contains(&UndecidedReason::Late);
         assert_eq!(is_late, depth > 0.0, "{doubts:?}");
+    }
+}
+
+/// Two combs with `teeth` teeth each, `reach` apart from each other in x, whose gaps fit the teeth of the other.
+fn combs(teeth: i32, reach: i32) -> String {
+    let (mut lower, mut upper) = (Vec::new(), Vec::new());
+    for x in (0..teeth).map(|k| 4 * k) {
+        lower.extend([[x, 0], [x, 10], [x + 2, 10], [x + 2, 0]]);
+        upper.extend([[x + 2 - reach, 10], [x + 2 - reach, 0], [x + 4, 0], [x + 4, 10]]);
+    }
+    let end = 4 * teeth;
+    lower.extend([[end, 0], [end, -1], [0, -1]]);
+    upper.extend([[end + 2, 10], [end + 2, 11], [2 - reach, 11]]);
+    json!({ "drystone": 1, "ground": [{ "polygon": lower }], "blocks": [{ "polygon": upper }] }).to_string()
+}
+
+/// Two combs whose teeth cross: every tooth of one overlaps every tooth of the other.
+fn crossed_combs(teeth: i32) -> String {
+    let mut comb = Vec::new();
+    for x in (0..teeth).map(|k| 4 * k) {
+        comb.extend([[x, 0], [x, 4 * teeth], [x + 2, 4 * teeth], [x + 2, 0]]);
+    }
+    comb.extend([[4 * teeth, 0], [4 * teeth, -1], [0, -1]]);
+    let other: Vec<_> = comb.iter().rev().map(|[x, y]| [*y, *x]).collect();
+    json!({ "drystone": 1, "ground": [{ "polygon": comb }], "blocks": [{ "polygon": other }] }).to_string()
+}
+
+/// Files of 15 to 300 kB in which something grows with the square of their length. Each is processed or refused within
+/// 500 MB of address space, which the program, its threads and the text of the largest file need at least half of.
+#[test]
+fn memory_grows_with_the_length_of_a_file() {
+    let floor = |parts: usize| vec![json!({ "polygon": [[0, -1], [2000, -1], [2000, 0], [0, 0]] }); parts];
+    let row = |count: usize| -> Vec<_> {
+        (0..count).map(|i| json!({ "id": format!("b{i}"), "polygon": square(2.0 * i as f64) })).collect()
+    };
+    let names = |count: usize| -> Vec<String> { (0..count).map(|i| format!("b{i}")).collect() };
+    let scene = |ground: Vec<_>, blocks: Vec<_>, more: serde_json::Value| {
+        let mut scene = json!({ "drystone": 1, "ground": ground, "blocks": blocks });
+        scene.as_object_mut().expect("an object").extend(more.as_object().cloned().unwrap_or_default());
+        scene.to_string()
+    };
+    let wedge = |fan: usize, k: usize| {
+        let corner = |k: usize| {
+            let (sin, cos) = libm::sincos(std::f64::consts::PI * k as f64 / 90.0);
+            [10.0 * fan as f64 + 4.0 * cos, 4.0 * sin]
+        };
+        json!({ "polygon": [[10 * fan, 0], corner(k), corner(k + 1)] })
+    };
+    let fans = (0..12).flat_map(|fan| (0..90).map(move |k| (fan, k))).map(|(fan, k)| wedge(fan, k)).collect();
+    let shelf = |i: usize| {
+        let y = i % 2;
+        json!({ "id": format!("b{i}"), "polygon": [[0, y], [1, y], [1, y + 1], [0, y + 1]] })
+    };
+    let turn = |i: usize| match i {
+        0 => json!({ "place": ["b0"] }),
+        _ => json!({ "remove": [format!("b{}", i - 1)], "place": [format!("b{i}")] }),
+    };
+    let turns: Vec<_> = (0..1200).map(turn).collect();
+    let holds: serde_json::Map<_, _> = (0..2000).map(|i| (format!("r{i}"), "b0".into())).collect();
+    let mut held = vec![json!({ "place": ["b0"], "hold": holds })];
+    held.extend(vec![json!({}); 2000]);
+    let robots: Vec<_> = (0..2000).map(|i| json!({ "id": format!("r{i}") })).collect();
+    let mut idle = vec![json!({ "place": names(100) })];
+    idle.extend(vec![json!({}); 4000]);
+    let cases: Vec<_> = (0..3000).map(|i| json!({ "id": format!("c{i}"), "weights": 1 })).collect();
+    let near = (0..3000).map(|i| json!({ "polygon": square(f64::from(i) * 1e-7) })).collect();
+    let tolerant = json!({ "contact_tolerance": 0.01 });
+    let overlaps = "there are more overlaps than the 1000 in this list";
+    let too_near = "lie so close together that they may touch; at most";
+    let too_many = "contain more than 1000000 blocks and grips in total";
+    let files = [
+        ("ground.json", scene(floor(2500), row(500), json!({})), too_near),
+        ("one_place.json", scene(floor(1), vec![json!({ "polygon": square(0.0) }); 3000], json!({})), overlaps),
+        ("near.json", scene(floor(1), near, tolerant), overlaps),
+        ("turns.json", scene(floor(1), (0..1200).map(shelf).collect(), json!({ "steps": turns })), too_near),
+        ("fans.json", scene(floor(1), fans, json!({ "corner_contacts": true })), "pairs of corners meet in one frame"),
+        ("cases.json", scene(floor(1), row(400), json!({ "cases": cases })), too_many),
+        ("held.json", scene(floor(1), row(1), json!({ "robots": robots, "steps": held })), too_many),
+        ("idle.json", scene(floor(1), row(100), json!({ "steps": idle })), ""),
+        ("combs.json", combs(1500, 0), ""),
+        ("deep.json", combs(1500, 1), "overlap by 1 m, with a common area of 15000 m²"),
+        ("crossed.json", crossed_combs(1500), "with a common area of at least"),
+    ];
+    for (name, text, words) in files {
+        assert!((15_000..300_000).contains(&text.len()), "{name} has {} bytes", text.len());
+        let ran = run_within(500_000, name, &text, &format!("check --json {name}"));
+        let start: String = ran.messages.chars().take(400).collect();
+        assert_eq!(ran.code, Some(if words.is_empty() { 0 } else { 2 }), "{name}: {start}");
+        assert!(ran.messages.contains(words), "{name}: {start}");
     }
 }

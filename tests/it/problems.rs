@@ -75,6 +75,7 @@ fn every_code_of_a_problem_occurs() {
         Code::NotUtf8,
         Code::NotFinite,
         Code::TooManyCorners,
+        Code::TooManyPairs,
         Code::TooManySteps,
         Code::TooManyTips,
         Code::MoreProblems,

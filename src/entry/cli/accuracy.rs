@@ -7,7 +7,7 @@ use clap::Args;
 use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
-use crate::entry::cli::progress::{BarVisibility, Progress};
+use crate::entry::cli::progress::Progress;
 use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::AnalysisArgs;
@@ -63,9 +63,8 @@ impl Accuracy {
                 scene
             })
             .collect();
-        let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
         let frames = scenes.iter().map(|s| s.frames.len()).sum();
-        let progress = Progress::begin(frames, shown);
+        let progress = Progress::begin(frames, terminal.progress());
         let tolerances = if self.tolerances.is_empty() { &TOLERANCES[..] } else { &self.tolerances[..] };
         let study = study(&scenes, tolerances, &mut |name| {
             progress.doing(name);

@@ -13,11 +13,13 @@ use std::thread;
 
 use clap::Args;
 
+use crate::clock::Instant;
 use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::missing_glyphs;
 use crate::entry::cli::picture::{Format, Picture};
+use crate::entry::cli::source::read_in_time;
 use crate::entry::cli::style_args::StyleArgs;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::{AnalysisArgs, MarginArgs};
@@ -285,11 +287,15 @@ impl SceneWork {
             Ok(bytes) => bytes,
             Err(why) => return Ok(self.refused(origin, &[problem(Code::NotReadable, why, "")])),
         };
-        let scene = match self.level.read_scene(record.line.map_or(0, |n| n - 1), bytes) {
-            Ok((scene, _)) => scene,
-            Err(problems) => return Ok(self.refused(origin, &problems.list)),
+        let began = Instant::now();
+        let lines_before = record.line.map_or(0, |n| n - 1);
+        let scene = match read_in_time(&input::shown(record), lines_before, bytes.to_vec(), &self.level) {
+            Ok(Ok((scene, _))) => scene,
+            Ok(Err(problems)) => return Ok(self.refused(origin, &problems.list)),
+            Err(late) => return Ok(self.refused(origin, &[problem(Code::NotReadable, &late, "")])),
         };
-        let options = self.options();
+        let mut options = self.options();
+        options.deadline = self.level.time_limit.and_then(|limit| began.checked_add(limit));
         if self.drawn.is_none() && self.fields.are_few() && self.form == Form::Json {
             let found = verdicts(&scene, &options);
             let ending = ExitStatus::from_verdicts(&scene, found.iter().copied());

@@ -1,14 +1,16 @@
 //! `drystone check`: decides whether structures stand, and prints tables for people or JSON for programs.
 
+use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
+use crate::clock::Instant;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::page::Page;
-use crate::entry::cli::progress::{BarVisibility, Progress};
+use crate::entry::cli::progress::Progress;
 use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::table::{self, Detail};
 use crate::entry::cli::terminal::Terminal;
@@ -17,7 +19,7 @@ use crate::entry::request::CheckArgs;
 use crate::mechanics::analysis::{Analysis, Options, Verdict};
 use crate::mechanics::scene::{Note, Scene};
 use crate::products::figure;
-use crate::products::result::{Layout, Timing, refusal, to_json_of, to_json_with_blocks};
+use crate::products::result::{Layout, Timing, refusal, write_json};
 use crate::products::wording::number::letter;
 use crate::products::wording::sensitivity;
 use crate::products::wording::verdict::tally;
@@ -60,7 +62,11 @@ impl Check {
         for file in source::foreign_files(&self.scenes)? {
             terminal.note(&format!("{}: left out, because it has no key \"drystone\"", source::name(&file)));
         }
+        let began = Instant::now();
+        let reading = Progress::begin(1, terminal.progress());
+        reading.doing("reading");
         let outcomes = source::read_each(&self.scenes, self.what.frame, &self.what.level)?;
+        drop(reading);
         // For a single file, the JSON may have several lines. For several files, each file gets one line of JSON.
         let layout = if outcomes.len() == 1 { Layout::Lines } else { Layout::OneLine };
         if self.certificate.is_some() && outcomes.len() != 1 {
@@ -86,7 +92,7 @@ impl Check {
             return Err(refused.into_iter().map(|(.., complaint)| complaint).collect());
         }
         let width = terminal.width();
-        let answers = self.answers(&sources, layout, terminal, width);
+        let answers = self.answers(&sources, layout, terminal, width, began);
 
         let mut done = Vec::new();
         for ((number, source), answer) in sources.into_iter().zip(answers) {
@@ -97,7 +103,8 @@ impl Check {
         }
         refused.sort_by_key(|(number, ..)| *number);
         let printed = if self.json {
-            terminal.print_bytes(objects(&done, &refused, layout).as_bytes())
+            let objects = objects(&mut done, &refused, layout);
+            terminal.print_with(|out| objects.into_iter().try_for_each(|object| object(out)))
         } else if terminal.is_quiet() {
             terminal.print(&Page::default())
         } else {
@@ -112,7 +119,7 @@ impl Check {
         Ok(endings.chain(wrong).max().unwrap_or(ExitStatus::Done))
     }
 
-    /// Analyses all scenes in parallel, and shows a progress bar if this takes long. Returns a result or an error for
+    /// Analyses all scenes in parallel, and shows a progress bar if this takes long. The time limit counts from `began`. Returns a result or an error for
     /// each scene, in the order of `sources`.
     fn answers(
         &self,
@@ -120,10 +127,11 @@ impl Check {
         layout: Layout,
         terminal: &Terminal,
         width: Option<usize>,
+        began: Instant,
     ) -> Vec<Result<SceneResult, CliError>> {
-        let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
-        let progress = Progress::begin(sources.len(), shown);
-        let options = self.what.base();
+        let progress = Progress::begin(sources.len(), terminal.progress());
+        let mut options = self.what.base();
+        options.deadline = self.what.level.time_limit.and_then(|limit| began.checked_add(limit));
         let is_table = !self.json && !terminal.is_quiet();
         sources
             .par_iter()
@@ -176,19 +184,24 @@ impl Check {
         let ending = ExitStatus::from_analysis(&analysis);
         let verdicts = analysis.frames.iter().map(|frame| frame.verdict).collect();
         if self.json {
-            let file = source.path.to_string_lossy();
-            let json = if self.blocks {
-                to_json_with_blocks(Some(&file), &analysis, timing, layout)
-            } else {
-                to_json_of(&file, &analysis, timing, layout)
+            let (file, blocks) = (source.path.to_string_lossy().into_owned(), self.blocks);
+            let json: Json = match layout {
+                // The JSON of one scene may need more memory than its analysis, and is written piece by piece.
+                Layout::Lines => Box::new(move |out| write_json(out, Some(&file), &analysis, blocks, timing, layout)),
+                Layout::OneLine => {
+                    let mut text = Vec::new();
+                    write_json(&mut text, Some(&file), &analysis, blocks, timing, layout)
+                        .map_err(|error| CliError::not_written("the result", error))?;
+                    Box::new(move |out| out.write_all(&text))
+                }
             };
-            return Ok((ending, verdicts, json, Page::default()));
+            return Ok((ending, verdicts, Some(json), Page::default()));
         }
         let mut page = table::of(&source.name(), &analysis, &detail, width);
         page.append(&sensitivities(&analysis));
         page.append(&notes_page(&analysis.notes));
         page.end();
-        Ok((ending, verdicts, String::new(), page))
+        Ok((ending, verdicts, None, page))
     }
 
     /// Returns the tables of all scenes. Totals follow if there are several scenes. With `--explain`, the meanings of
@@ -208,26 +221,25 @@ impl Check {
     }
 }
 
-/// The exit status of a scene, the verdicts of its frames, its JSON, and its table. The JSON is empty without `--json`,
+/// Writes the JSON of a scene.
+type Json = Box<dyn FnOnce(&mut dyn io::Write) -> io::Result<()> + Send>;
+
+/// The exit status of a scene, the verdicts of its frames, its JSON, and its table. There is no JSON without `--json`,
 /// and the table is empty with `--json`.
-type SceneResult = (ExitStatus, Vec<Verdict>, String, Page);
+type SceneResult = (ExitStatus, Vec<Verdict>, Option<Json>, Page);
 
 /// The index and the path of a file that has no result, and the error.
 type RefusedFile = (usize, PathBuf, CliError);
 
 /// Returns the JSON of all files in their order: the answers of valid files, and the problems of refused files.
 /// `refused` must be sorted by the number of the file.
-fn objects(done: &[SceneResult], refused: &[RefusedFile], layout: Layout) -> String {
-    let mut objects: Vec<&str> = done.iter().map(|(_, _, json, _)| json.as_str()).collect();
-    let problems = refused.iter().map(|(number, path, complaint)| {
-        let file = path.to_string_lossy();
-        (*number, refusal(&file, &complaint.problems(), layout))
-    });
-    let problems: Vec<(usize, String)> = problems.collect();
-    for (number, json) in &problems {
-        objects.insert(*number, json);
+fn objects(done: &mut [SceneResult], refused: &[RefusedFile], layout: Layout) -> Vec<Json> {
+    let mut objects: Vec<Json> = done.iter_mut().filter_map(|(_, _, json, _)| json.take()).collect();
+    for (number, path, complaint) in refused {
+        let json = refusal(&path.to_string_lossy(), &complaint.problems(), layout);
+        objects.insert(*number, Box::new(move |out| out.write_all(json.as_bytes())));
     }
-    objects.concat()
+    objects
 }
 
 /// Returns how many scenes and frames have each verdict: `12 scenes: 10 stand, 2 fall; 40 frames: 38 stand, 2 fall`. The

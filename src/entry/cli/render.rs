@@ -18,7 +18,7 @@ use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::missing_glyphs;
 use crate::entry::cli::picture::Format;
-use crate::entry::cli::progress::{BarVisibility, Progress};
+use crate::entry::cli::progress::Progress;
 use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::cli::watch;
@@ -182,8 +182,7 @@ impl Render {
         fonts: &Fonts,
         terminal: &Terminal,
     ) -> Vec<Result<Rendered, CliError>> {
-        let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
-        let progress = Progress::begin(2 * sources.len(), shown);
+        let progress = Progress::begin(2 * sources.len(), terminal.progress());
         let mut analysis_options = self.draw.figure.level.options();
         analysis_options.margins = self.draw.figure.kind.needs_margins();
         match sources {

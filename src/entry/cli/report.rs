@@ -14,7 +14,7 @@ use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::missing_glyphs;
-use crate::entry::cli::progress::{BarVisibility, Progress};
+use crate::entry::cli::progress::Progress;
 use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::style_args::StyleArgs;
 use crate::entry::cli::terminal::Terminal;
@@ -196,8 +196,7 @@ impl Report {
             margin_kinds: if self.margins { MarginKinds::ALL } else { MarginKinds::new(&DEFAULT_MARGINS) },
             ..self.level.options()
         };
-        let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
-        let progress = Progress::begin(tasks.len(), shown);
+        let progress = Progress::begin(tasks.len(), terminal.progress());
         let numbered: Vec<(usize, &Task)> = tasks.iter().enumerate().collect();
         let one = |(number, task): &(usize, &Task)| {
             progress.doing(&task.name());

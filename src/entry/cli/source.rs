@@ -4,13 +4,19 @@ use std::ffi::OsStr;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::channel;
+use std::thread;
+use std::time::Duration;
 
 use crate::entry::cli::error::CliError;
 use crate::entry::request::{AnalysisArgs, FrameChoice};
-use crate::mechanics::scene::{Scene, isolate};
+use crate::mechanics::scene::{Scene, SceneError, isolate};
 use crate::pictures::output::attachment::{file_in, is_picture};
 use crate::products::snapshot::discovery::looks_like_scene;
 use crate::products::snapshot::setting::matches_pattern;
+
+/// Reading a scene may exceed the time limit by this duration. A program with debug assertions is many times slower.
+const GRACE: Duration = Duration::from_millis(if cfg!(debug_assertions) { 10_000 } else { 400 });
 
 /// A scene and the path from which it was read.
 #[derive(Debug)]
@@ -200,9 +206,41 @@ pub(crate) fn carried(path: &Path, picture: &[u8]) -> Result<Vec<u8>, CliError> 
 /// Reads one scene.
 pub(crate) fn read_one(path: &Path, level: &AnalysisArgs) -> Result<Source, CliError> {
     let bytes = scene_bytes(path)?;
-    let read = isolated(path, || level.read_scene(0, &bytes))?;
-    let (scene, file) = read.map_err(|problems| CliError::Scene { name: name(path), problems })?;
-    Ok(Source { path: path.to_owned(), scene, file: file.into_owned() })
+    match read_in_time(&name(path), 0, bytes, level) {
+        Ok(Ok((scene, file))) => Ok(Source { path: path.to_owned(), scene, file }),
+        Ok(Err(problems)) => Err(CliError::Scene { name: name(path), problems }),
+        Err(late) => Err(CliError::not_read(name(path), late)),
+    }
+}
+
+/// Reads a scene from bytes like [`AnalysisArgs::read_scene`], but only until the time limit. An internal error becomes a
+/// problem of the scene `name`.
+///
+/// # Errors
+/// Words that say that the time limit was reached. The work then goes on in a thread of its own, until the program ends.
+pub(crate) fn read_in_time(
+    name: &str,
+    lines_before: usize,
+    bytes: Vec<u8>,
+    level: &AnalysisArgs,
+) -> Result<Result<(Scene, Vec<u8>), SceneError>, String> {
+    let (own, level) = (name.to_owned(), level.clone());
+    let limit = level.time_limit;
+    let work = move || {
+        let read =
+            isolate(&own, || level.read_scene(lines_before, &bytes).map(|(scene, file)| (scene, file.into_owned())));
+        read.flatten()
+    };
+    let Some(limit) = limit else { return Ok(work()) };
+    let (done, result) = channel();
+    thread::spawn(move || {
+        // Nobody receives the scene after the time limit.
+        let _ = done.send(work());
+    });
+    let most = limit.saturating_add(GRACE);
+    result
+        .recv_timeout(most)
+        .map_err(|_| format!("the time limit of {limit:?} was reached while the scene was checked"))
 }
 
 /// Runs `work` for one scene file. A panic in `work` becomes an error of this file.

@@ -13,6 +13,7 @@ use terminal_size::{Height, Width};
 
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::page::Page;
+use crate::entry::cli::progress::BarVisibility;
 use crate::products::result::{Layout, quoted, refusal};
 
 /// The options for messages and colours.
@@ -73,6 +74,11 @@ impl Terminal {
         !self.quiet && io::stderr().is_terminal()
     }
 
+    /// Returns when a progress bar is shown.
+    pub(crate) fn progress(&self) -> BarVisibility {
+        if self.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never }
+    }
+
     /// True if standard output is a terminal. Binary data such as a PNG must not be written to a terminal.
     pub(crate) fn is_watched(&self) -> bool {
         io::stdout().is_terminal()
@@ -92,8 +98,13 @@ impl Terminal {
 
     /// Prints bytes to standard output unchanged: a picture, or JSON that is already escaped.
     pub(crate) fn print_bytes(&self, bytes: &[u8]) -> Result<(), CliError> {
-        let mut stream = io::stdout().lock();
-        written(stream.write_all(bytes).and_then(|()| stream.flush()))
+        self.print_with(|stream| stream.write_all(bytes))
+    }
+
+    /// Prints what `write` writes to standard output, like [`Self::print_bytes`].
+    pub(crate) fn print_with(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), CliError> {
+        let mut stream = io::BufWriter::new(io::stdout().lock());
+        written(write(&mut stream).and_then(|()| stream.flush()))
     }
 
     /// Prints a line of information to standard error, unless `--quiet` is given.

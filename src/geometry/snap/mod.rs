@@ -22,6 +22,7 @@ mod node;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::box_index::across_longest;
 use super::{Aabb, BoxIndex, ConvexPieces, Edge, Point, Polygon, PolygonError, cross, overlap};
 use line::Lines;
 use node::Nodes;
@@ -68,6 +69,17 @@ const MIN_MOVE: f64 = 1e-6;
 
 /// A ring whose area shrinks to this fraction of its former area, or below, has lost its shape.
 const MIN_AREA_SHARE: f64 = 0.5;
+
+/// If more pairs of bodies lie close together, for each corner on average, their overlaps are not compared, and no body
+/// is moved.
+const MAX_PAIRS_PER_CORNER: usize = 16;
+
+/// Returns how many neighbours of all `count` corners, or of all their sides, are visited. If there are more, thousands of
+/// outlines lie at one place, and nothing is joined.
+fn most_visits(count: usize) -> usize {
+    const MEAN: usize = 256;
+    MEAN * count + 100_000
+}
 
 /// The distances within which corners are joined to other bodies.
 #[derive(Clone, Copy, Debug)]
@@ -221,28 +233,31 @@ fn attempt<'b>(bodies: &'b [Rings], gaps: Gaps<'_>, kept: &[bool]) -> Outcome<'b
 }
 
 /// Returns all pairs of a node and a side of another body whose distance is at most the smaller of their gaps. Curved
-/// sides of the bodies marked in `kept` are left out, because these bodies get no new corners.
+/// sides of the bodies marked in `kept` are left out, because these bodies get no new corners. Returns no pairs if there
+/// are more neighbours than [`most_visits`].
 ///
 /// The index contains the nodes, and each side is a query. An index of the sides would be slower: the boxes of hundreds
 /// of sides of thin stones can overlap, whereas nodes are points.
 fn nodes_near_sides<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[bool]) -> Vec<NodeNearSide<'s>> {
-    let nearby = BoxIndex::new((0..nodes.all.len()).collect(), |n: &usize| {
-        let at = nodes.all[*n].at.into();
-        Aabb { min: at, max: at }
-    });
+    let ends = |side: &Side| Edge { from: nodes.all[side.ends[0]].at, to: nodes.all[side.ends[1]].at };
+    let across = across_longest(sides.iter().map(ends));
+    let around = |n: &usize| Aabb::with_direction(&[nodes.all[*n].at], across);
+    let nearby = BoxIndex::new((0..nodes.all.len()).collect(), around);
     let mut found = Vec::new();
+    let mut visits = most_visits(sides.len());
     for side in sides {
         if side.curved && kept[side.body] {
             continue;
         }
         // Search the box of the side, extended by the gap of its body.
-        let (from, to) = (nodes.all[side.ends[0]].at, nodes.all[side.ends[1]].at);
+        let Edge { from, to } = ends(side);
         let along = to - from;
         let length = along.norm();
-        let around = Edge { from, to }.bounds().grown(gaps[side.body]);
+        let around = Aabb::with_direction(&[from, to], across).grown(gaps[side.body]);
         for number in nearby.intersecting(around).copied() {
+            visits = visits.saturating_sub(1);
             let node = &nodes.all[number];
-            if nodes.bodies(node).contains(&side.body) {
+            if nodes.bodies(node).binary_search(&side.body).is_ok() {
                 continue;
             }
             // The foot of the perpendicular must lie between the ends of the side, and the distance must not exceed the
@@ -255,6 +270,9 @@ fn nodes_near_sides<'s>(nodes: &Nodes, sides: &'s [Side], gaps: &[f64], kept: &[
             if reach > 0.0 && reach < length && off <= gap {
                 found.push(NodeNearSide { node: number, side, reach, off });
             }
+        }
+        if visits == 0 {
+            return Vec::new();
         }
     }
     found
@@ -341,11 +359,16 @@ fn damaged_bodies(before: &[Rings], after: &[Rings], gaps: &[f64], noise: f64) -
     let entries =
         polygons.iter().enumerate().filter_map(|(i, p)| p.as_ref().map(|p| (Aabb::with_diagonals(p.outline()), i)));
     let nearby = BoxIndex::new(entries.collect(), |entry| entry.0);
+    let mut pairs = MAX_PAIRS_PER_CORNER * before.iter().flatten().map(Vec::len).sum::<usize>() + 100_000;
     for (own, (_, a)) in nearby.all() {
         for (_, b) in nearby.intersecting(*own) {
             if b <= a {
                 continue;
             }
+            if pairs == 0 {
+                return (0..before.len()).collect();
+            }
+            pairs -= 1;
             let (Some(one), Some(two)) = (&pieces[*a], &pieces[*b]) else {
                 continue;
             };

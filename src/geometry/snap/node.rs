@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::{Corner, Gaps, Rings};
+use super::{Corner, Gaps, Rings, most_visits};
 use crate::geometry::{Aabb, BoxIndex, Point};
 
 /// A point that replaces one or more corners.
@@ -198,7 +198,7 @@ fn clustered(corners: &[UnplacedCorner], kept: &[bool]) -> Clusters {
 ///
 /// The pairs are sorted by distance, then by the numbers of the corners, so that the result does not depend on the
 /// order in which the spatial index finds them. A corner gets at most [`MAX_COINCIDENT`] pairs with earlier corners at
-/// its own position.
+/// its own position. If there are more neighbours than [`most_visits`], no corners are joined.
 fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
     let nearby = BoxIndex::new((0..corners.len()).collect(), |i: &usize| {
         let at = corners[*i].at.into();
@@ -206,6 +206,7 @@ fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
     });
     let mut pairs = Vec::new();
     let mut coincident = Vec::new();
+    let mut visits = most_visits(corners.len());
     for (i, corner) in corners.iter().enumerate() {
         coincident.clear();
         // Search a square around each corner. List each pair once, if its distance is at most the smaller of the two
@@ -214,11 +215,15 @@ fn close_pairs(corners: &[UnplacedCorner]) -> Vec<(f64, usize, usize)> {
         let gap = corner.gap;
         let around = Aabb { min: [x - gap, y - gap], max: [x + gap, y + gap] };
         for j in nearby.intersecting(around).copied() {
+            visits = visits.saturating_sub(1);
             let distance = (corners[j].at - corner.at).norm();
             let gap = gap.min(corners[j].gap);
             if j < i && corners[j].body != corner.body && distance <= gap {
                 if distance == 0.0 { coincident.push(j) } else { pairs.push((distance, i, j)) }
             }
+        }
+        if visits == 0 {
+            return Vec::new();
         }
         coincident.sort_unstable();
         let first = coincident.iter().take(MAX_COINCIDENT);

@@ -90,24 +90,39 @@ impl Analysis {
     pub(super) fn of_cases(scene: Arc<Scene>, options: &Options) -> Analysis {
         // A change must reach its target in all cases.
         let alone = Options { reach: None, ..*options };
-        let each = scene.cases.iter().map(|case| Analysis::with(scene.in_case(case), &alone));
-        let mut each: Vec<Analysis> = each.collect();
-        let notes = each.first_mut().map(|first| std::mem::take(&mut first.notes)).unwrap_or_default();
-        let mut frames = Vec::with_capacity(scene.frames.len());
-        let mut scenes = Vec::with_capacity(scene.frames.len());
-        for number in 0..scene.frames.len() {
-            let found: Vec<&FrameAnalysis> = each.iter().map(|case| &case.frames[number]).collect();
-            let governing = worst_of(&found);
-            let results = scene.cases.iter().zip(&found).map(|(case, found)| CaseResult {
-                id: case.id.clone(),
-                verdict: found.verdict,
-                margins: found.margins.clone(),
-            });
-            let cases = LoadCases { governing, each: results.collect(), envelope: envelope(&found) };
-            let mut frame = found[governing].clone();
+        let (mut frames, mut scenes, mut notes) = (Vec::<FrameAnalysis>::new(), Vec::new(), Vec::new());
+        let mut cases: Vec<LoadCases> = Vec::new();
+        let mut latest: Option<Analysis> = None;
+        for (k, case) in scene.cases.iter().enumerate() {
+            // If nothing was decided before the deadline, nothing is decided in the other cases either.
+            let is_undecided = |found: &Analysis| found.frames.iter().all(|f| f.verdict == Verdict::Undecided);
+            if !(options.is_late() && latest.as_ref().is_some_and(is_undecided)) {
+                latest = Some(Analysis::with(scene.in_case(case), &alone));
+            }
+            let Some(found) = &mut latest else { continue };
+            if k == 0 {
+                notes = std::mem::take(&mut found.notes);
+                frames.clone_from(&found.frames);
+                scenes = vec![found.scene.clone(); frames.len()];
+                let first = |frame| LoadCases { governing: 0, each: Vec::new(), envelope: envelope(frame) };
+                cases = frames.iter().map(first).collect();
+            }
+            for (number, frame) in found.frames.iter().enumerate() {
+                let (id, verdict, margins) = (case.id.clone(), frame.verdict, frame.margins.clone());
+                cases[number].each.push(CaseResult { id, verdict, margins });
+                for (range, own) in cases[number].envelope.iter_mut().zip(envelope(frame)) {
+                    range.normal = wider(range.normal, own.normal);
+                    range.friction = wider(range.friction, own.friction);
+                }
+                if is_worse(frame, &frames[number]) {
+                    frames[number] = frame.clone();
+                    scenes[number] = found.scene.clone();
+                    cases[number].governing = k;
+                }
+            }
+        }
+        for (frame, cases) in frames.iter_mut().zip(cases) {
             frame.cases = Some(cases);
-            frames.push(frame);
-            scenes.push(each[governing].scene.clone());
         }
         reach::add_reach(&scene, &mut frames, options);
         // Results of the whole scene, such as a list of inputs, show the case of the worst frame.
@@ -150,19 +165,16 @@ fn reserve(found: &FrameAnalysis) -> [f64; 2] {
     })
 }
 
-/// Returns the range of the forces at each interface over all cases. All cases have the same interfaces.
-fn envelope(cases: &[&FrameAnalysis]) -> Vec<Envelope> {
-    let Some((first, others)) = cases.split_first() else {
-        return Vec::new();
+/// Returns the forces at each interface, as ranges without length. All cases have the same interfaces.
+fn envelope(case: &FrameAnalysis) -> Vec<Envelope> {
+    let of_contact = |contact: &super::Contact| Envelope {
+        normal: [contact.normal_forces.iter().sum(); 2],
+        friction: [contact.friction_force; 2],
     };
-    let range = |contact: usize, force: &dyn Fn(&super::Contact) -> f64| {
-        let at_first = force(&first.contacts[contact]);
-        let forces = others.iter().filter_map(|case| case.contacts.get(contact)).map(force);
-        forces.fold([at_first; 2], |[low, high], force| [f64::min(low, force), f64::max(high, force)])
-    };
-    let of_contact = |contact: usize| Envelope {
-        normal: range(contact, &|contact| contact.normal_forces.iter().sum()),
-        friction: range(contact, &|contact| contact.friction_force),
-    };
-    (0..first.contacts.len()).map(of_contact).collect()
+    case.contacts.iter().map(of_contact).collect()
+}
+
+/// Returns the range that contains two ranges.
+fn wider(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].min(b[0]), a[1].max(b[1])]
 }

@@ -17,6 +17,12 @@ const MAX_LISTED_OVERLAPS: usize = 1000;
 /// An overlap may come from rounding if its depth is less than this fraction of the smaller block's size.
 const MAX_ROUNDING_DEPTH: f64 = 0.01;
 
+/// Of `n` bodies, at most `MAX_NEAR_PAIRS + MAX_NEAR_PER_BODY · n` pairs may lie so close together that they may touch.
+/// Thousands of equal parts of the ground under hundreds of blocks have millions of contacts.
+const MAX_NEAR_PAIRS: usize = 100_000;
+/// See [`MAX_NEAR_PAIRS`]. In a wall, a body has about six neighbours.
+const MAX_NEAR_PER_BODY: usize = 20;
+
 /// An overlap of two bodies.
 struct Found {
     bodies: [BodyId; 2],
@@ -28,6 +34,8 @@ struct Found {
     /// Whether the bodies may have been meant to touch, because the depth is less than a hundredth of the smaller
     /// block's size. Always false if all bodies consist of lattice cells.
     may_be_meant: bool,
+    /// Whether area and depth are only lower bounds.
+    at_least: bool,
     /// The index of the first frame in which both bodies are present.
     frame: usize,
 }
@@ -67,12 +75,12 @@ pub struct Penetration {
 /// overlap, which may be a drawing error, are returned and not reported. If the scene gives a contact tolerance, or if
 /// more than [`MAX_LISTED_OVERLAPS`] pairs overlap, small overlaps are reported too and the returned list is empty.
 pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Penetration> {
+    let most = MAX_NEAR_PAIRS + MAX_NEAR_PER_BODY * scene.bodies.len();
+    let (near, count) = near_pairs(&scene.bodies, most);
     let presence = Presence::new(scene.names.len(), scene.frames);
-    let bodies: Vec<Numbered<'_>> =
-        scene.bodies.iter().copied().filter(|(id, _)| !presence.of_body(*id).is_empty()).collect();
     let mut found = match scene.lattice {
-        Some(lattice) => on_lattice(&bodies, lattice, &presence),
-        None => off_lattice(&bodies, &presence),
+        Some(lattice) => on_lattice(&scene.bodies, lattice, &presence),
+        None => off_lattice(&scene.bodies, &near, &presence),
     };
     found.sort_by_key(|f| (f.bodies[1], f.bodies[0]));
     let all = found.len();
@@ -80,6 +88,9 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
         (found.into_iter()).partition(|f| f.may_be_meant && !scene.given && all <= MAX_LISTED_OVERLAPS);
     let top = Trail::Top;
     let list = top.key("blocks");
+    if found.is_empty() && count > most {
+        findings.add(&list, problem::outline::too_close(count, most, scene.bodies.len()));
+    }
     for f in found.iter().take(MAX_LISTED_OVERLAPS) {
         let BodyId::Block(block) = f.bodies[1] else {
             continue;
@@ -95,7 +106,13 @@ pub(super) fn check(findings: &mut Findings, scene: &Comparison<'_>) -> Vec<Pene
         let wording = problem::outline::overlap(
             &name(f.bodies[1]),
             &name(f.bodies[0]),
-            &problem::outline::Common { depth: f.depth, area: f.area, at: f.at, may_be_meant: f.may_be_meant },
+            &problem::outline::Common {
+                depth: f.depth,
+                area: f.area,
+                at: f.at,
+                may_be_meant: f.may_be_meant,
+                at_least: f.at_least,
+            },
             frame.as_deref(),
             findings.units,
         )
@@ -194,6 +211,7 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
                 area: count * lattice.cell_area(),
                 depth: deep.map_or(0.0, |o| o.depth),
                 may_be_meant: false,
+                at_least: false,
                 at: Point::from(sum / count),
                 frame,
             }
@@ -201,34 +219,51 @@ fn on_lattice(bodies: &[Numbered<'_>], lattice: Lattice, presence: &Presence) ->
         .collect()
 }
 
-fn off_lattice(bodies: &[Numbered<'_>], presence: &Presence) -> Vec<Found> {
-    let boxes: Vec<Aabb<4>> = bodies.iter().map(|(_, body)| Aabb::with_diagonals(body.polygon.outline())).collect();
-    let pieces: Vec<ConvexPieces> = bodies.iter().map(|(_, body)| ConvexPieces::new(&body.polygon)).collect();
+/// Returns the pairs of bodies that may touch or overlap: those whose boxes are at most a hundredth of a body's size
+/// apart, the later body first. The body is given by its index; two parts of the ground are no pair. Also returns the
+/// number of pairs; if it exceeds `most`, the list has only the first of them.
+fn near_pairs(bodies: &[Numbered<'_>], most: usize) -> (Vec<[usize; 2]>, usize) {
+    let around = |(_, body): &Numbered<'_>| {
+        Aabb::with_diagonals(body.polygon.outline()).grown((MAX_ROUNDING_DEPTH * size(&body.polygon)).max(body.gap))
+    };
+    let boxes: Vec<Aabb<4>> = bodies.iter().map(around).collect();
     let nearby = BoxIndex::new((0..bodies.len()).collect(), |i: &usize| boxes[*i]);
+    let (mut pairs, mut count) = (Vec::new(), 0);
+    for (i, (id, _)) in bodies.iter().enumerate().filter(|(_, b)| matches!(b.0, BodyId::Block(_))) {
+        let first = pairs.len();
+        let others = nearby.intersecting(boxes[i]).copied().filter(|j| bodies[*j].0 < *id);
+        if count > most {
+            count += others.count();
+            continue;
+        }
+        pairs.extend(others.map(|j| [i, j]));
+        pairs[first..].sort_unstable();
+        count = pairs.len();
+    }
+    (pairs, count)
+}
+
+fn off_lattice(bodies: &[Numbered<'_>], near: &[[usize; 2]], presence: &Presence) -> Vec<Found> {
+    let pieces: Vec<ConvexPieces> = bodies.iter().map(|(_, body)| ConvexPieces::new(&body.polygon)).collect();
     let mut found = Vec::new();
-    let mut near: Vec<usize> = Vec::new();
-    for (i, (id, _)) in bodies.iter().enumerate() {
-        near.clear();
-        let others = nearby.intersecting(boxes[i]).copied();
-        near.extend(others.filter(|j| bodies[*j].0 < *id));
-        near.sort_unstable();
-        for j in near.iter().copied() {
-            let pair = [bodies[j].0, *id];
-            let gap = bodies[i].1.gap.min(bodies[j].1.gap);
-            if let Some(frame) = presence.together(pair[0], pair[1])
-                && let Some(o) = common([bodies[i].1, bodies[j].1], [&pieces[i], &pieces[j]], gap)
-            {
-                let blocks = [bodies[i], bodies[j]].into_iter();
-                let sizes = blocks.filter(|b| matches!(b.0, BodyId::Block(_))).map(|b| size(&b.1.polygon));
-                found.push(Found {
-                    bodies: pair,
-                    area: o.area,
-                    depth: o.depth,
-                    may_be_meant: o.depth < MAX_ROUNDING_DEPTH * sizes.fold(f64::INFINITY, f64::min),
-                    at: o.at,
-                    frame,
-                });
-            }
+    for [i, j] in near.iter().copied() {
+        let pair = [bodies[j].0, bodies[i].0];
+        let gap = bodies[i].1.gap.min(bodies[j].1.gap);
+        if let Some(frame) = presence.together(pair[0], pair[1])
+            && let Some(o) = common([bodies[i].1, bodies[j].1], [&pieces[i], &pieces[j]], gap)
+        {
+            let blocks = [bodies[i], bodies[j]].into_iter();
+            let sizes = blocks.filter(|b| matches!(b.0, BodyId::Block(_))).map(|b| size(&b.1.polygon));
+            let meant = MAX_ROUNDING_DEPTH * sizes.fold(f64::INFINITY, f64::min);
+            found.push(Found {
+                bodies: pair,
+                area: o.area,
+                depth: o.depth,
+                may_be_meant: o.depth < meant && !o.at_least,
+                at_least: o.at_least,
+                at: o.at,
+                frame,
+            });
         }
         if found.len() > MAX_LISTED_OVERLAPS {
             break;
@@ -246,7 +281,7 @@ fn common([a, b]: [&Body; 2], [one, other]: [&ConvexPieces<'_>; 2], gap: f64) ->
         (Some(circle), None) => circle.depth_in(&b.polygon),
         (None, Some(circle)) => circle.depth_in(&a.polygon),
     };
-    let drawn = || overlap(one, other, 0.0).unwrap_or(Overlap { area: 0.0, at: a.centroid(), depth });
+    let drawn = || overlap(one, other, 0.0).unwrap_or(Overlap { area: 0.0, at: a.centroid(), depth, at_least: false });
     (depth > gap).then(|| Overlap { depth, ..drawn() })
 }
 
@@ -259,20 +294,30 @@ fn common([a, b]: [&Body; 2], [one, other]: [&ConvexPieces<'_>; 2], gap: f64) ->
 /// these are 79 800 contacts and a computation of 20 s.
 pub(super) const MAX_BODIES_AT_POINT: usize = 100;
 
-/// Reports a point at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame. Of several such
-/// points, reports the one with the smallest x. Corners within about `gap`, in the units of the file, count as corners
-/// at the same point.
+/// In a frame of `n` bodies, at most `MAX_TIPS + MAX_TIPS_PER_BODY · n` pairs of corners may meet. In a regular tiling, a
+/// body has less than ten.
+const MAX_TIPS: usize = 10_000;
+/// See [`MAX_TIPS`].
+const MAX_TIPS_PER_BODY: usize = 10;
+
+/// Reports a point at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame: of several such
+/// points, the one with the smallest x. Otherwise reports if the corners of all points make too many pairs. Corners
+/// within about `gap`, in the units of the file, count as corners at the same point.
 pub(super) fn check_crowding(findings: &mut Findings, bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) {
-    if let Some((at, count)) = crowded(bodies, frames, gap) {
-        let top = Trail::Top;
-        let key = top.key("corner_contacts");
-        findings.add(&key, problem::outline::crowded(count, MAX_BODIES_AT_POINT, at));
-    }
+    let (at_point, pairs) = crowded(bodies, frames, gap);
+    let most = MAX_TIPS + MAX_TIPS_PER_BODY * bodies.len();
+    let wording = match at_point {
+        Some((at, count)) => problem::outline::crowded(count, MAX_BODIES_AT_POINT, at),
+        None if pairs > most => problem::outline::crowded_everywhere(pairs, most),
+        None => return,
+    };
+    findings.add(&Trail::Top.key("corner_contacts"), wording);
 }
 
-/// Returns the point of smallest x at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame. Also
-/// returns the number of these bodies in the frame that contains most of them. `None` if there is no such point.
-fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> Option<(Point, usize)> {
+/// Returns the point of smallest x at which corners of more than [`MAX_BODIES_AT_POINT`] bodies meet in one frame, with
+/// the number of these bodies in the frame that contains most of them; `None` if there is no such point. Also returns
+/// the largest number of pairs of corners that meet in a frame.
+fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> (Option<(Point, usize)>, usize) {
     // Adding 0 turns −0 into 0, because `total_cmp` below distinguishes −0 from 0.
     let cell = |v: f64| if gap > 0.0 { (v / gap).round() } else { v } + 0.0;
     let mut corners: Vec<([f64; 2], Point, BodyId)> = Vec::new();
@@ -281,18 +326,43 @@ fn crowded(bodies: &[Numbered<'_>], frames: &[Frame], gap: f64) -> Option<(Point
         corners.extend(own.map(|p| ([cell(p.x), cell(p.y)], *p, *id)));
     }
     corners.sort_by(|(a, _, one), (b, _, two)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(one.cmp(two)));
-    let together = corners.chunk_by(|a, b| a.0 == b.0);
-    together.filter(|group| group.len() > MAX_BODIES_AT_POINT).find_map(|group| {
-        let meeting: BTreeSet<BodyId> = group.iter().map(|(_, _, id)| *id).collect();
-        let ground = meeting.iter().filter(|id| matches!(id, BodyId::Ground(_)));
-        let ground = ground.count();
-        let present = |frame: &Frame| {
-            let placed = frame.placed.iter();
-            ground + placed.filter(|id| meeting.contains(&BodyId::Block(**id))).count()
-        };
-        let most = frames.iter().map(present).max()?;
-        (most > MAX_BODIES_AT_POINT).then_some((group[0].1, most))
-    })
+    // For each point, its place, and the number of bodies there: now, and in the frame that contains most of them.
+    let mut points: Vec<(Point, usize, usize)> = Vec::new();
+    let mut points_of: BTreeMap<BlockId, Vec<usize>> = BTreeMap::new();
+    let mut pairs = 0;
+    for group in corners.chunk_by(|a, b| a.0 == b.0).filter(|group| group[0].2 < group[group.len() - 1].2) {
+        let mut ground = 0;
+        for (_, _, id) in group.chunk_by(|a, b| a.2 == b.2).map(|same| same[0]) {
+            match id {
+                BodyId::Ground(_) => ground += 1,
+                BodyId::Block(block) => points_of.entry(block).or_default().push(points.len()),
+            }
+        }
+        pairs += ground * usize::saturating_sub(ground, 1) / 2;
+        points.push((group[0].1, ground, ground));
+    }
+    let mut most = pairs;
+    let mut present: BTreeSet<BlockId> = BTreeSet::new();
+    for frame in frames {
+        let placed: BTreeSet<BlockId> = frame.placed.iter().copied().filter(|id| points_of.contains_key(id)).collect();
+        for gone in present.difference(&placed) {
+            for point in &points_of[gone] {
+                points[*point].1 -= 1;
+                pairs -= points[*point].1;
+            }
+        }
+        for new in placed.difference(&present) {
+            for point in &points_of[new] {
+                pairs += points[*point].1;
+                points[*point].1 += 1;
+                points[*point].2 = points[*point].2.max(points[*point].1);
+            }
+        }
+        present = placed;
+        most = most.max(pairs);
+    }
+    let crowded = points.iter().find(|(_, _, count)| *count > MAX_BODIES_AT_POINT);
+    (crowded.map(|(at, _, count)| (*at, *count)), most)
 }
 
 #[cfg(test)]

@@ -138,7 +138,7 @@ impl SceneFile {
         let mut writer = serde_json::Serializer::with_formatter(&mut bytes, Lines::new(1));
         self.serialize(&mut writer).expect("plain structures with text keys always serialise into memory");
         bytes.push(b'\n');
-        crate::text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
+        crate::text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8")).into_owned()
     }
 
     /// Sets the units in which all lengths and forces of the scene are given.

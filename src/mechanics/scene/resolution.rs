@@ -52,7 +52,7 @@ pub(super) fn resolve(file: &SceneFile, unread: UnreadParts) -> Result<Scene, Ve
 }
 
 /// The largest number of corners of all bodies that use a shape.
-const MAX_CORNERS: usize = 5_000_000;
+const MAX_CORNERS: usize = 1_000_000;
 
 /// A scene file, with the values of the whole file that its bodies use: units, gravity, defaults, materials and shapes.
 struct Resolution<'f> {
@@ -131,6 +131,11 @@ impl<'f> Resolution<'f> {
             findings.add(&Trail::Top.key("shapes"), problem::message::too_many_corners(corners, MAX_CORNERS));
             return None;
         }
+        let most = steps::MAX_PLACED_BLOCKS;
+        if self.file.steps.is_empty() && self.file.blocks.len() * self.case_count() > most {
+            findings.add(&Trail::Top.key("blocks"), problem::message::too_many_placed(most));
+            return None;
+        }
         let (mut ground, mut blocks) = (self.ground(findings), self.blocks(findings));
         let names = self.body_names(findings);
         let mut contacts = self.contacts(findings, &names.blocks);
@@ -189,6 +194,11 @@ impl<'f> Resolution<'f> {
         })
     }
 
+    /// Returns how often a frame is analysed: once for each load case, or once.
+    fn case_count(&self) -> usize {
+        self.file.cases.len().max(1)
+    }
+
     /// Returns the sum of the corners of all bodies that use a shape.
     fn corners_of_shapes(&self) -> usize {
         let used = self.file.ground.iter().map(|entry| &entry.shape);
@@ -231,7 +241,7 @@ impl<'f> Resolution<'f> {
         let known = (findings.unread.first_entry("steps")).unwrap_or(usize::MAX).min(self.file.steps.len());
         let grips: Vec<Option<Grip>> = robots.iter().map(|robot| robot.holds).collect();
         let context = StepContext { blocks: &names.blocks, robots: &names.robots, centroids, grips: &grips };
-        steps::frames(findings, &self.file.steps[..known], &context)
+        steps::frames(findings, &self.file.steps[..known], &context, self.case_count())
     }
 
     /// Finds bodies that overlap. Returns the overlaps that are small enough to be allowed, and reports the larger

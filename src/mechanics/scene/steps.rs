@@ -16,9 +16,9 @@ use super::{Frame, Grip, Hold, Plan};
 use crate::geometry::Point;
 use crate::read::Trail;
 
-/// The largest sum, over all frames, of the number of placed blocks. It allows a wall of 1 400 blocks that are placed in
-/// one step each. The result has about 600 bytes for each of them.
-const MAX_PLACED_BLOCKS: usize = 1_000_000;
+/// The largest sum, over all frames and load cases, of the number of placed blocks and of grips. It allows a wall of
+/// 1 400 blocks that are placed in one step each. The result has about 600 bytes for each of them.
+pub(super) const MAX_PLACED_BLOCKS: usize = 1_000_000;
 
 /// The largest number of frames.
 const MAX_FRAMES: usize = 50_000;
@@ -52,8 +52,14 @@ pub(super) fn frame_without_steps(blocks: usize, holds: Vec<Hold>) -> Frame {
 }
 
 /// Executes the steps and returns the frame after each of them. Reports the problems of the steps. Reports an error and
-/// stops if there are more than [`MAX_FRAMES`] frames, or if they contain more than [`MAX_PLACED_BLOCKS`] blocks in total.
-pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], context: &StepContext<'_>) -> Vec<Frame> {
+/// stops if there are more than [`MAX_FRAMES`] frames, or if they contain more than [`MAX_PLACED_BLOCKS`] blocks in total
+/// in `cases` load cases.
+pub(super) fn frames(
+    findings: &mut Findings,
+    steps: &[StepEntry],
+    context: &StepContext<'_>,
+    cases: usize,
+) -> Vec<Frame> {
     let top = Trail::Top;
     let list = top.key("steps");
     let mut state = StepState {
@@ -70,10 +76,10 @@ pub(super) fn frames(findings: &mut Findings, steps: &[StepEntry], context: &Ste
     let mut placed_total = 0;
     for (k, step) in steps.iter().enumerate() {
         let frame = state.execute(findings, &list.index(k), k, step, context);
-        placed_total += frame.placed.len();
+        placed_total += frame.placed.len() + frame.holds.len();
         frames.push(frame);
-        if placed_total > MAX_PLACED_BLOCKS {
-            findings.add(&list.index(k), problem::message::too_many_placed(steps.len(), MAX_PLACED_BLOCKS));
+        if placed_total * cases > MAX_PLACED_BLOCKS {
+            findings.add(&list.index(k), problem::message::too_many_placed(MAX_PLACED_BLOCKS));
             break;
         }
     }

@@ -73,5 +73,5 @@ pub fn accuracy_json(study: &[Case]) -> String {
     let mut text =
         serde_json::to_string_pretty(&page).expect("plain structures with text keys always serialise into memory");
     text.push('\n');
-    json(&text)
+    json(&text).into_owned()
 }

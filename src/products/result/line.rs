@@ -205,7 +205,7 @@ pub fn line_of(origin: &Origin, analysis: &Analysis, picture: &PictureOutcome, f
         let timing = if fields.ask(&["frames", "solve"]) { Timing::Included } else { Timing::LeftOut };
         let mut whole = Result::new(analysis, timing);
         if fields.ask(&["frames", "blocks"]) {
-            whole = whole.with_blocks(&analysis.scene);
+            whole.frames.has_blocks = true;
         }
         let whole = serde_json::to_value(whole).unwrap_or_default();
         let spelled = fields.spelled();
@@ -269,7 +269,7 @@ fn line_start(origin: &Origin) -> String {
 
 fn line_end(mut out: String) -> String {
     out.push_str("}\n");
-    text::json(&out)
+    text::json(&out).into_owned()
 }
 
 /// Writes a key with its colon. A comma separates it from the field before.

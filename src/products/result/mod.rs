@@ -29,6 +29,8 @@ mod sensitivity;
 mod vehicle;
 mod wedging;
 
+use std::io;
+
 use serde::{Serialize, Serializer};
 
 #[cfg(feature = "report")]
@@ -103,35 +105,72 @@ pub enum Layout {
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn to_json(analysis: &Analysis, timing: Timing, layout: Layout) -> String {
-    written(&Result::new(analysis, timing), layout, 2)
+    whole(None, analysis, false, timing, layout)
 }
 
 /// Like [`to_json`], with the path of the scene file under the key `file`.
 pub fn to_json_of(file: &str, analysis: &Analysis, timing: Timing, layout: Layout) -> String {
-    let mut result = Result::new(analysis, timing);
-    result.file = Some(file);
-    written(&result, layout, 2)
+    whole(Some(file), analysis, false, timing, layout)
 }
 
 /// Like [`to_json`], with the placed blocks of each frame under the key `frames[].blocks`. If `file` is given, the
 /// result also has the path of the scene file.
 pub fn to_json_with_blocks(file: Option<&str>, analysis: &Analysis, timing: Timing, layout: Layout) -> String {
-    let mut result = Result::new(analysis, timing).with_blocks(&analysis.scene);
-    result.file = file;
-    written(&result, layout, 2)
+    whole(file, analysis, true, timing, layout)
+}
+
+fn whole(file: Option<&str>, analysis: &Analysis, blocks: bool, timing: Timing, layout: Layout) -> String {
+    let mut bytes = Vec::new();
+    write_json(&mut bytes, file, analysis, blocks, timing, layout).expect("writing into memory succeeds");
+    String::from_utf8(bytes).expect("serde_json writes UTF-8")
+}
+
+/// Writes the text of [`to_json`], or with `blocks` that of [`to_json_with_blocks`], one frame after the other.
+pub(crate) fn write_json(
+    out: &mut dyn io::Write,
+    file: Option<&str>,
+    analysis: &Analysis,
+    blocks: bool,
+    timing: Timing,
+    layout: Layout,
+) -> io::Result<()> {
+    let mut result = Result::new(analysis, timing);
+    (result.file, result.frames.has_blocks) = (file, blocks);
+    write(out, &result, layout, 2)
 }
 
 /// Writes a value as JSON that ends with a line feed. With [`Layout::Lines`], objects that are nested deeper than `depth`
 /// are written on one line.
 fn written(value: &impl Serialize, layout: Layout, depth: usize) -> String {
     let mut bytes = Vec::new();
-    let written = match layout {
-        Layout::Lines => value.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, Lines::new(depth))),
-        Layout::OneLine => serde_json::to_writer(&mut bytes, &value),
-    };
-    written.expect("plain structures with text keys always serialise into memory");
-    bytes.push(b'\n');
-    text::json(&String::from_utf8(bytes).expect("serde_json writes UTF-8"))
+    write(&mut bytes, value, layout, depth).expect("plain structures with text keys always serialise into memory");
+    String::from_utf8(bytes).expect("serde_json writes UTF-8")
+}
+
+/// Writes a value like [`written`].
+fn write(out: &mut dyn io::Write, value: &impl Serialize, layout: Layout, depth: usize) -> io::Result<()> {
+    let mut out = Escaping(out);
+    match layout {
+        Layout::Lines => value.serialize(&mut serde_json::Serializer::with_formatter(&mut out, Lines::new(depth)))?,
+        Layout::OneLine => serde_json::to_writer(&mut out, value)?,
+    }
+    out.0.write_all(b"\n")
+}
+
+/// Replaces the characters of JSON that a terminal would interpret.
+struct Escaping<'w>(&'w mut dyn io::Write);
+
+impl io::Write for Escaping<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        // serde_json writes pieces of text that divide no character.
+        let piece = std::str::from_utf8(bytes).map_err(io::Error::other)?;
+        self.0.write_all(text::json(piece).as_bytes())?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
 }
 
 /// Writes a value as JSON on one line, without a line feed.
@@ -139,6 +178,7 @@ fn compact(value: &(impl Serialize + ?Sized)) -> String {
     text::json(
         serde_json::to_string(value).expect("plain structures with text keys always serialise into memory").as_str(),
     )
+    .into_owned()
 }
 
 #[derive(Serialize)]
@@ -152,7 +192,26 @@ struct Result<'a> {
     contact_tolerance: Tolerance,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     notes: Vec<NoteEntry<'a>>,
-    frames: Vec<Frame<'a>>,
+    frames: Frames<'a>,
+}
+
+/// The frames of a result. Each is made when it is written, so that a result with many frames needs little memory.
+struct Frames<'a> {
+    analysis: &'a Analysis,
+    timing: Timing,
+    has_blocks: bool,
+}
+
+impl Serialize for Frames<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let scene = &self.analysis.scene;
+        let steps = scene.frames.iter().zip(&self.analysis.frames).enumerate();
+        serializer.collect_seq(steps.map(|(number, (step, frame))| {
+            let mut frame = Frame::new(self.analysis.scene_of(number), &step.title, frame, self.timing);
+            frame.blocks = self.has_blocks.then(|| step.placed.iter().map(|id| Block::new(scene, *id)).collect());
+            frame
+        }))
+    }
 }
 
 /// The distances within which edges touch and are merged, in metres, the source of these distances, and the corners
@@ -265,7 +324,6 @@ fn arrow(v: Vector) -> Pair {
 impl<'a> Result<'a> {
     fn new(analysis: &'a Analysis, timing: Timing) -> Result<'a> {
         let scene = &analysis.scene;
-        let frames = scene.frames.iter().zip(&analysis.frames);
         Result {
             drystone: env!("CARGO_PKG_VERSION"),
             file: None,
@@ -273,19 +331,8 @@ impl<'a> Result<'a> {
             set: &scene.set,
             contact_tolerance: Tolerance::new(scene),
             notes: analysis.notes.iter().map(NoteEntry::new).collect(),
-            frames: (frames.enumerate())
-                .map(|(number, (step, frame))| Frame::new(analysis.scene_of(number), &step.title, frame, timing))
-                .collect(),
+            frames: Frames { analysis, timing, has_blocks: false },
         }
-    }
-
-    /// Adds the placed blocks of each frame to the result.
-    fn with_blocks(mut self, scene: &'a Scene) -> Result<'a> {
-        for (step, frame) in scene.frames.iter().zip(&mut self.frames) {
-            let blocks = step.placed.iter().map(|id| Block::new(scene, *id));
-            frame.blocks = Some(blocks.collect());
-        }
-        self
     }
 }
 

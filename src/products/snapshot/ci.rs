@@ -87,5 +87,5 @@ pub fn json(report: &CheckOutcome) -> String {
         "accepted": files(&report.accepted),
         "pruned": files(&report.pruned),
     });
-    text::json(&format!("{outcome:#}\n"))
+    text::json(&format!("{outcome:#}\n")).into_owned()
 }

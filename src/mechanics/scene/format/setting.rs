@@ -276,7 +276,7 @@ fn after<'n>(name: &'n str, begin: &str) -> Option<&'n str> {
 }
 
 fn quoted(text: &str) -> String {
-    json(&serde_json::Value::from(text).to_string())
+    json(&serde_json::Value::from(text).to_string()).into_owned()
 }
 
 fn unknown(path: &Path, message: String, help: String) -> Box<Problem> {

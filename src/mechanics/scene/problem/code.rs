@@ -83,6 +83,7 @@ codes! {
     OffLattice "off_lattice" "a coordinate or an angle does not fit the lattice",
     Overlap "overlap" "two bodies that are present at the same time overlap",
     TooManyCorners "too_many_corners" "the shapes of all bodies have too many corners in total",
+    TooManyPairs "too_many_pairs" "too many bodies lie so close to others that they may touch, such as equal parts of the ground",
     TooManySteps "too_many_steps" "there are too many steps, or the frames contain too many blocks in total",
     TooManyTips "too_many_tips" "in a scene with `corner_contacts`, corners of too many blocks and ground polygons meet at one point",
     PlacedTwice "placed_twice" "a block is placed or planned although it is already placed",

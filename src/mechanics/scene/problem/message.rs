@@ -253,11 +253,11 @@ pub(in crate::mechanics::scene) fn too_many_pressed(most: usize) -> Wording {
     )
 }
 
-pub(in crate::mechanics::scene) fn too_many_placed(steps: usize, most: usize) -> Wording {
+pub(in crate::mechanics::scene) fn too_many_placed(most: usize) -> Wording {
     new_wording(
         Code::TooManySteps,
-        format!("the frames of {steps} steps contain more than {most} blocks in total"),
-        "use fewer steps, or split the scene into several scenes",
+        format!("the frames of all steps and load cases contain more than {most} blocks and grips in total"),
+        "use fewer steps or cases, or split the scene into several scenes",
     )
 }
 

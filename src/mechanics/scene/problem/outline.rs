@@ -99,6 +99,14 @@ pub(in crate::mechanics::scene) fn crowded(count: usize, most: usize, at: Point)
     )
 }
 
+pub(in crate::mechanics::scene) fn crowded_everywhere(pairs: usize, most: usize) -> Wording {
+    new_wording(
+        Code::TooManyTips,
+        format!("{pairs} pairs of corners meet in one frame; at most {most} corner contacts are allowed"),
+        "remove `corner_contacts`, or cut the tips off, so that the bodies touch along edges",
+    )
+}
+
 pub(in crate::mechanics::scene) fn holes_alone() -> Wording {
     new_wording(
         Code::HolesWithoutPolygon,
@@ -189,6 +197,8 @@ pub(in crate::mechanics::scene) struct Common {
     pub(in crate::mechanics::scene) at: Point,
     /// Whether the overlap is so small that the bodies were probably meant to touch.
     pub(in crate::mechanics::scene) may_be_meant: bool,
+    /// Whether depth and area are only lower bounds.
+    pub(in crate::mechanics::scene) at_least: bool,
 }
 
 pub(in crate::mechanics::scene) fn overlap(
@@ -201,13 +211,14 @@ pub(in crate::mechanics::scene) fn overlap(
     let unit = units.length().symbol();
     let when = frame.map_or(String::new(), |f| format!(" in {f}"));
     let Common { depth, area, at, .. } = common;
+    let least = if common.at_least { "at least " } else { "" };
     let help = "move the bodies apart until they only touch".to_owned();
     // Round the depth up, so that the suggested tolerance is sufficient.
     let enough = format!("{:.1e}", 1.06 * depth);
     new_wording(
         Code::Overlap,
         format!(
-            "{a} and {b} overlap by {} {unit}, with a common area of {} {unit}², around {}{when}",
+            "{a} and {b} overlap by {least}{} {unit}, with a common area of {least}{} {unit}², around {}{when}",
             digits(*depth),
             digits(*area),
             point(*at)
@@ -217,6 +228,17 @@ pub(in crate::mechanics::scene) fn overlap(
         } else {
             help
         },
+    )
+}
+
+pub(in crate::mechanics::scene) fn too_close(count: usize, most: usize, bodies: usize) -> Wording {
+    new_wording(
+        Code::TooManyPairs,
+        format!(
+            "{count} pairs of its {bodies} bodies lie so close together that they may touch; at most {most} are allowed"
+        ),
+        "join the parts of the ground that lie at one place, remove blocks that are listed several times, or divide \
+         the scene",
     )
 }
 

@@ -51,8 +51,8 @@ pub(super) type Outside = (usize, Option<Point>);
 /// The parts of the outlines of all blocks that touch no other body.
 pub(super) struct FreeEdges {
     parts: Vec<Stretch>,
-    /// The largest distance between the ends of two parts that follow each other.
-    join: f64,
+    /// For each part, the index of the part that follows it.
+    next: Vec<Option<usize>>,
     /// The size of all blocks.
     size: f64,
 }
@@ -81,7 +81,8 @@ impl FreeEdges {
             }
         }
         let gap = solid.iter().map(|(_, body)| body.gap).fold(0.0, f64::max);
-        FreeEdges { parts, join: MAX_GAPS_APART * (gap + rounding), size }
+        let next = followers(&parts, MAX_GAPS_APART * (gap + rounding));
+        FreeEdges { parts, next, size }
     }
 
     /// Returns the free edges between two points. The shares run from the first to the second point.
@@ -103,13 +104,11 @@ impl FreeEdges {
                 }
             }
         }
-        let starts =
-            BoxIndex::new((0..self.parts.len()).collect(), |part: &usize| around(self.parts[*part].ends[0], 0.0));
         let [first, last] = places;
         // The blocks are on the left of every edge. So one of the two paths runs from the first point to the second, the
         // other one back.
-        let there = self.path(&starts, first, last).map(|path| with_shares(path, false));
-        let back = self.path(&starts, last, first).map(|path| with_shares(path, true));
+        let there = self.path(first, last).map(|path| with_shares(path, false));
+        let back = self.path(last, first).map(|path| with_shares(path, true));
         let length = |path: &[Stretch]| path.iter().map(Stretch::length).sum::<f64>();
         match (there, back) {
             (Some(there), Some(back)) => Ok(if length(&back) < length(&there) { back } else { there }),
@@ -120,30 +119,28 @@ impl FreeEdges {
 
     /// Returns the parts of free edges from one place to another, in the direction of the edges. A place is a part and a
     /// share of its length. `None` if the path ends before.
-    fn path(
-        &self,
-        starts: &BoxIndex<usize, 2>,
-        (first, from): (usize, f64),
-        (last, to): (usize, f64),
-    ) -> Option<Vec<Stretch>> {
+    fn path(&self, (first, from): (usize, f64), (last, to): (usize, f64)) -> Option<Vec<Stretch>> {
         if first == last && from <= to {
             return Some(vec![self.parts[first].part([from, to])]);
         }
+        let behind = || std::iter::successors(self.next[first], |at| self.next[*at]).take(self.parts.len());
+        let between = behind().position(|at| at == last)?;
         let mut path = vec![self.parts[first].part([from, 1.0])];
-        let mut at = first;
-        for _ in 0..self.parts.len() {
-            let end = self.parts[at].ends[1];
-            let distance = |part: &usize| (self.parts[*part].ends[0] - end).norm();
-            let next = starts.intersecting(around(end, self.join)).copied().filter(|part| *part != at);
-            at = next.filter(|part| distance(part) <= self.join).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-            if at == last {
-                path.push(self.parts[last].part([0.0, to]));
-                return Some(path);
-            }
-            path.push(self.parts[at]);
-        }
-        None
+        path.extend(behind().take(between).map(|at| self.parts[at]));
+        path.push(self.parts[last].part([0.0, to]));
+        Some(path)
     }
+}
+
+/// Returns, for each part, the index of the part that begins nearest to its end, at most `join` from it.
+fn followers(parts: &[Stretch], join: f64) -> Vec<Option<usize>> {
+    let starts = BoxIndex::new((0..parts.len()).collect(), |part: &usize| around(parts[*part].ends[0], 0.0));
+    let follower = |(at, part): (usize, &Stretch)| {
+        let distance = |next: &usize| (parts[*next].ends[0] - part.ends[1]).norm();
+        let next = starts.intersecting(around(part.ends[1], join)).copied().filter(|next| *next != at);
+        next.filter(|next| distance(next) <= join).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    parts.iter().enumerate().map(follower).collect()
 }
 
 /// Sets the shares of the parts of a path: from 0 to 1, or back if the path runs from the second point to the first.

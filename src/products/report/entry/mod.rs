@@ -98,7 +98,7 @@ impl Entry {
             sections: steps::sections(analysis, options),
             origin: format!("drystone {}, scene {}", env!("CARGO_PKG_VERSION"), hash(file.text)),
             commands: commands(file.name, analysis, options),
-            source: text::json(file.text),
+            source: text::json(file.text).into_owned(),
             results: vec![result(file.name, analysis, options.timing)],
             changes: Vec::new(),
         }

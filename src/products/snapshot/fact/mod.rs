@@ -134,7 +134,7 @@ impl Facts {
     pub fn text(&self) -> String {
         let text = serde_json::to_string(self).unwrap_or_default();
         // Each fact begins on a new line. This cannot occur in a name, where quotation marks are escaped.
-        text::json(&text.replace("{\"fact\":\"", "\n{\"fact\":\"")) + "\n"
+        text::json(&text.replace("{\"fact\":\"", "\n{\"fact\":\"")).into_owned() + "\n"
     }
 
     /// Reads facts from the text of a reference file of any version.
