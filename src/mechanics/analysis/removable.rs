@@ -44,6 +44,10 @@ pub struct Help {
     pub force: f64,
 }
 
+/// The frames without one block are analysed in groups that contain at most about this number of blocks, because all of
+/// them together may need gigabytes.
+const MAX_TOGETHER: usize = 100_000;
+
 /// Finds out for each frame which blocks may leave it, if the options request it.
 pub(super) fn add_removables(scene: &Scene, interfaces: &Interfaces, frames: &mut [FrameAnalysis], options: &Options) {
     if !options.removable {
@@ -56,18 +60,30 @@ pub(super) fn add_removables(scene: &Scene, interfaces: &Interfaces, frames: &mu
             plans: Vec::new(),
             ..frame.clone()
         };
-        // The frame itself is the last one.
-        let rests = frame.placed.iter().map(without).chain([frame.clone()]).collect();
-        let rests = Analysis::with(Scene { frames: rests, ..scene.clone() }, &options.only_verdict());
-        let one = |number: usize| {
-            let _until = DeadlineGuard::new(options.deadline);
-            of_block(&rests, interfaces, number, found.verdict)
-        };
-        let blocks = 0..frame.placed.len();
-        #[cfg(feature = "parallel")]
-        let rows: Vec<_> = blocks.into_par_iter().map(one).collect();
-        #[cfg(not(feature = "parallel"))]
-        let rows: Vec<_> = blocks.map(one).collect();
+        let mut rows = Vec::with_capacity(frame.placed.len());
+        for blocks in frame.placed.chunks((MAX_TOGETHER / frame.placed.len().max(1)).max(1)) {
+            if options.is_late() {
+                let is_held = |block: BlockId| frame.holds.iter().any(|hold| hold.block == block);
+                let late = |block: &BlockId| {
+                    let force = (found.verdict == Verdict::Stable && !is_held(*block)).then_some(0.0);
+                    let row = Removable { block: *block, rest: Verdict::Undecided, force, help: None };
+                    (row, force.is_none() && found.verdict != Verdict::Undecided)
+                };
+                rows.extend(blocks.iter().map(late));
+                continue;
+            }
+            let rests = blocks.iter().map(without).collect();
+            let rests = Analysis::with(Scene { frames: rests, ..scene.clone() }, &options.only_verdict());
+            let one = |number: usize| {
+                let _until = DeadlineGuard::new(options.deadline);
+                of_block(&rests, interfaces, number, (blocks[number], frame), found.verdict)
+            };
+            let numbers = 0..blocks.len();
+            #[cfg(feature = "parallel")]
+            rows.par_extend(numbers.into_par_iter().map(one));
+            #[cfg(not(feature = "parallel"))]
+            rows.extend(numbers.map(one));
+        }
         for (row, _) in rows.iter().filter(|(_, is_missing)| *is_missing) {
             let name = &scene.blocks[row.block.0].id;
             found.notices.push(format!("removable: no proof was found of the least force for block {name}"));
@@ -76,14 +92,18 @@ pub(super) fn add_removables(scene: &Scene, interfaces: &Interfaces, frames: &mu
     }
 }
 
-/// Finds out whether one block may leave. `rests` has, in order, the frames without one block, and the whole frame. The
-/// flag says that a force is missing because no proof was found.
-fn of_block(rests: &Analysis, interfaces: &Interfaces, number: usize, verdict: Verdict) -> (Removable, bool) {
+/// Finds out whether one block may leave the frame `whole`. The frame `number` of `rests` is the one without this block.
+/// The flag says that a force is missing because no proof was found.
+fn of_block(
+    rests: &Analysis,
+    interfaces: &Interfaces,
+    number: usize,
+    (block, whole): (BlockId, &Frame),
+    verdict: Verdict,
+) -> (Removable, bool) {
     let (scene, rest) = (&rests.scene, &rests.frames[number]);
-    let assembly = |number: usize| effect::assembly_of(scene, &scene.frames[number], interfaces);
-    let whole = scene.frames.len() - 1;
-    let block = scene.frames[whole].placed[number];
-    let hold = scene.frames[whole].holds.iter().find(|hold| hold.block == block);
+    let assembly = |frame: &Frame| effect::assembly_of(scene, frame, interfaces);
+    let hold = whole.holds.iter().find(|hold| hold.block == block);
     let force = match (verdict, hold) {
         (Verdict::Undecided, _) => Ok(None),
         (Verdict::Stable, None) => Ok(Some(0.0)),
@@ -100,7 +120,7 @@ fn of_block(rests: &Analysis, interfaces: &Interfaces, number: usize, verdict: V
             let frame = &scene.frames[number];
             let free = frame.placed.iter().filter(|block| frame.holds.iter().all(|hold| hold.block != **block));
             let points = free.map(|block| (*block, scene.blocks[block.0].centroid)).collect();
-            least_hold(&assembly(number), points, &rest.mechanism)
+            least_hold(&assembly(frame), points, &rest.mechanism)
         }
         _ => Ok(None),
     };
