@@ -305,10 +305,11 @@ fn stands_exactly(moved: &Scene, inward: f64) -> bool {
 
 /// Walls, stacks, lattices and arches with robots and loads, by an exact program that shares no code with the search: all
 /// patterns within the proved tolerance stand, and the pattern of `falls_at` falls. `DRYSTONE_PLACEMENTS` sets the number
-/// of scenes.
+/// of scenes, and `DRYSTONE_PLACEMENT_PATTERNS` that of random patterns for each.
 #[test]
 fn exact_programs_confirm_tolerances_of_random_scenes() {
     let count = number_of("DRYSTONE_PLACEMENTS", 24);
+    let patterns = number_of("DRYSTONE_PLACEMENT_PATTERNS", 6) as usize;
     let judge = |number: u64| {
         let (_, mut file) = random::scene(number);
         file["kernel"] = json!(0);
@@ -326,8 +327,8 @@ fn exact_programs_confirm_tolerances_of_random_scenes() {
         // Random patterns, and the pattern that falls with one block changed or none.
         let mut random = Random::new(number);
         let within = found.proved * 0.999;
-        for pattern in 0..6 + offsets.len() {
-            let sign = |block: usize, offset: f64| match pattern.checked_sub(6) {
+        for pattern in 0..patterns + offsets.len() {
+            let sign = |block: usize, offset: f64| match pattern.checked_sub(patterns) {
                 Some(changed) => {
                     if (offset < 0.0) == (changed == block) {
                         within
@@ -338,7 +339,7 @@ fn exact_programs_confirm_tolerances_of_random_scenes() {
                 None => within,
             };
             let mut errors: Vec<f64> = offsets.iter().enumerate().map(|(block, offset)| sign(block, *offset)).collect();
-            if pattern < 6 {
+            if pattern < patterns {
                 errors.iter_mut().for_each(|error| *error *= if random.percent(50) { 1.0 } else { -1.0 });
             }
             let stands = stands_exactly(&off_as(&file, &start, &errors), within);

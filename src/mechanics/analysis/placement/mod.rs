@@ -26,6 +26,9 @@ use crate::mechanics::statics::assembly::Assembly;
 /// The largest number of bodies of a component whose tolerance is computed.
 const MAX_BODIES: usize = 600;
 
+/// An interval between proof and fall of at most this share leaves nothing to search.
+const CLOSED: f64 = 1e-4;
+
 /// How accurately the blocks of a frame must be placed: the tolerance of the model in
 /// [`doc::placement`](crate::doc::placement).
 #[derive(Clone, Debug, PartialEq)]
@@ -165,6 +168,9 @@ fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
         let most = falling.mechanism.iter().max_by(|a, b| work(a).total_cmp(&work(b)));
         found.block = most.map(|motion| motion.block);
         found.falls_at = Some(falling.at);
+        if falling.at <= found.proved * (1.0 + CLOSED) && found.limited_by == PlacementLimit::Search {
+            found.limited_by = PlacementLimit::Balance;
+        }
         found.mechanism = falling.mechanism;
     }
     found.blocks = each_alone(component, &moments, &scales);

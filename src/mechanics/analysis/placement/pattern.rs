@@ -5,11 +5,17 @@ use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::decide::{LimitDistance, ProofCache, decide_verdict};
 use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::Motion;
-use crate::mechanics::solve::{Limit, is_late, largest_factor};
-use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::solve::{Limit, is_late, largest_factor_fast};
+use crate::mechanics::statics::assembly::{Assembly, AssemblyContact};
 
 /// A pattern counts as no better than another one if its tolerance is smaller by less than this share.
 const IMPROVEMENT: f64 = 1e-6;
+
+/// A pattern whose limit is within this share of the proved tolerance is the end of the search.
+const CLOSED: f64 = 1e-5;
+
+/// The largest number of steps to the limit of a pattern. Newton's method takes two to five.
+const MAX_STEPS: usize = 40;
 
 /// How far beyond the limit of a pattern the fall is confirmed, as shares of the limit.
 const BEYOND: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
@@ -35,6 +41,16 @@ pub(super) struct Errors<'a> {
     pub scales: &'a [f64],
 }
 
+/// The largest error of a pattern while the joints keep their lengths.
+struct PatternLimit {
+    /// Metres.
+    at: f64,
+    /// The change of the limit per metre by which the joints are shortened.
+    slope: f64,
+    /// The motion beyond the limit.
+    motion: Vec<f64>,
+}
+
 /// A pattern of errors with which a component falls.
 pub(super) struct Falling {
     /// Metres.
@@ -50,8 +66,7 @@ impl Errors<'_> {
     pub fn placed(&self, error: f64, signs: &[f64]) -> Assembly {
         let mut moved = self.component.clone();
         for contact in &mut moved.contacts {
-            let scale = contact.from.map_or(0.0, |body| self.scales[body]).max(self.scales[contact.on]);
-            let along = (contact.points[1] - contact.points[0]).normalize() * (error * scale);
+            let along = (contact.points[1] - contact.points[0]).normalize() * (error * self.scale_at(contact));
             contact.points = [contact.points[0] + along, contact.points[1] - along];
         }
         for (body, own) in moved.bodies.iter_mut().enumerate() {
@@ -60,9 +75,8 @@ impl Errors<'_> {
         moved.with_summed_loads()
     }
 
-    /// Returns the largest error of the pattern, metres, with the joints shortened by `shortened` metres, and the
-    /// motion beyond it.
-    fn limit(&self, shortened: f64, signs: &[f64]) -> Option<(f64, Vec<f64>)> {
+    /// Returns the limit of the pattern with the joints shortened by `shortened` metres.
+    fn limit(&self, shortened: f64, signs: &[f64]) -> Option<PatternLimit> {
         let none = vec![0.0; signs.len()];
         let moved = self.placed(shortened, &none);
         let scale = Scale::from_assembly(&moved);
@@ -71,46 +85,52 @@ impl Errors<'_> {
         for (body, sign) in signs.iter().enumerate() {
             direction[3 * body + 2] = -sign * self.moments[body] * self.scales[body] / scale.moment();
         }
-        let extreme = largest_factor(&program, &direction);
-        match extreme.limit {
-            Limit::At(error) => Some((error, extreme.motion?)),
-            Limit::Infeasible => Some((0.0, extreme.motion?)),
-            Limit::Unbounded | Limit::Unsolved => None,
-        }
+        let extreme = largest_factor_fast(&program, &direction);
+        let motion = extreme.motion?;
+        let at = match extreme.limit {
+            Limit::At(error) => error,
+            Limit::Infeasible => 0.0,
+            Limit::Unbounded | Limit::Unsolved => return None,
+        };
+        // Shorter joints take power from the forces in the motion: N1 and N2 move against each other.
+        let spin = |body: usize| motion[3 * body + 2];
+        let taken = moved.contacts.iter().zip(extreme.forces.iter().flat_map(|forces| &forces.normal));
+        let taken = taken.map(|(contact, [first, second])| {
+            let turn = spin(contact.on) - contact.from.map_or(0.0, spin);
+            (self.scale_at(contact) / scale.length * turn * (first - second)).abs()
+        });
+        let power = direction.iter().zip(&motion).map(|(load, velocity)| load * velocity).sum::<f64>().abs();
+        let slope = -taken.sum::<f64>() / power;
+        Some(PatternLimit { at, slope: if slope.is_finite() { slope } else { 0.0 }, motion })
     }
 
-    /// Returns the error at which the pattern's limit and the shortening of joints are equal, at most `end`, and the
-    /// motion there: regula falsi with the Illinois rule. `None` if there is none up to `end`.
-    fn root(&self, signs: &[f64], end: f64, accuracy: f64) -> Option<(f64, Vec<f64>)> {
-        let (mut high, mut motion) = self.limit(0.0, signs)?;
-        let mut low = 0.0;
-        let mut above = high;
-        high = high.min(end);
-        let mut below = {
-            let (limit, found) = self.limit(high, signs)?;
-            motion = if limit < high { found } else { motion };
-            limit - high
-        };
-        if below > 0.0 {
-            return (high < end).then_some((high, motion));
-        }
-        for _ in 0..40 {
+    /// Returns the factor on the error of a joint.
+    fn scale_at(&self, contact: &AssemblyContact) -> f64 {
+        contact.from.map_or(0.0, |body| self.scales[body]).max(self.scales[contact.on])
+    }
+
+    /// Returns the error at which the pattern's limit and the shortening of joints are equal, at most `end`: Newton's
+    /// method from `start`, within the interval that is still possible. `None` if there is none up to `end`.
+    fn root(&self, signs: &[f64], start: f64, end: f64, accuracy: f64) -> Option<f64> {
+        let (mut low, mut high, mut at) = (0.0, end, start);
+        for _ in 0..MAX_STEPS {
+            let limit = self.limit(at, signs)?;
+            let rest = limit.at - at;
+            if rest.abs() <= accuracy * at {
+                return Some(at);
+            }
+            if rest > 0.0 && at >= end {
+                return None;
+            }
+            *(if rest > 0.0 { &mut low } else { &mut high }) = at;
             if is_late() || high - low <= accuracy * high {
-                break;
+                return Some(high);
             }
-            let middle = low + (high - low) * above / (above - below);
-            let (limit, found) = self.limit(middle, signs)?;
-            let rest = limit - middle;
-            if rest.abs() <= accuracy * middle {
-                return Some((middle, found));
-            }
-            if rest > 0.0 {
-                (low, above, below) = (middle, rest, below / 2.0);
-            } else {
-                (high, below, above, motion) = (middle, rest, above / 2.0, found);
-            }
+            let next = (at + rest / (1.0 - limit.slope)).min(end);
+            let is_inside = next > low && (next < high || high == end && at < end);
+            at = if is_inside { next } else { low + (high - low) / 2.0 };
         }
-        Some((high, motion))
+        Some(high)
     }
 
     /// Finds a pattern with a small limit, from the motion with which affine forces end.
@@ -123,35 +143,37 @@ impl Errors<'_> {
         let count = self.moments.len();
         let mut starts = vec![vec![1.0; count], vec![-1.0; count]];
         if motion.len() == 3 * count {
-            starts.extend([signs(motion, 1.0), signs(motion, -1.0)]);
+            starts.splice(0..0, [signs(motion, 1.0), signs(motion, -1.0)]);
         }
+        let is_open = |best: &Option<(f64, Vec<f64>)>| best.as_ref().is_none_or(|(at, _)| *at > start * (1.0 + CLOSED));
         for first in starts {
             // Follow the motion of each pattern to the pattern that makes it work most.
             let mut pattern = first;
             let mut least = f64::INFINITY;
-            while let Some((limit, motion)) = self.limit(start, &pattern)
-                && limit < least * (1.0 - IMPROVEMENT)
+            while is_open(&best)
+                && let Some(limit) = self.limit(start, &pattern)
+                && limit.at < least * (1.0 - IMPROVEMENT)
             {
-                least = limit;
-                if best.as_ref().is_none_or(|(at, _)| limit < *at) {
-                    best = Some((limit, pattern.clone()));
+                least = limit.at;
+                if best.as_ref().is_none_or(|(at, _)| limit.at < *at) {
+                    best = Some((limit.at, pattern.clone()));
                 }
-                pattern = signs(&motion, 1.0);
+                pattern = signs(&limit.motion, 1.0);
             }
         }
+        let mut changed = count <= MAX_NEIGHBOURS && is_open(&best);
         let (mut least, mut pattern) = best?;
-        let mut changed = count <= MAX_NEIGHBOURS;
         while changed && !is_late() {
             changed = false;
             for body in (0..count).filter(|body| self.moments[*body] * self.scales[*body] > 0.0) {
                 pattern[body] *= -1.0;
                 match self.limit(start, &pattern) {
-                    Some((limit, _)) if limit < least * (1.0 - IMPROVEMENT) => (least, changed) = (limit, true),
+                    Some(limit) if limit.at < least * (1.0 - IMPROVEMENT) => (least, changed) = (limit.at, true),
                     _ => pattern[body] *= -1.0,
                 }
             }
         }
-        let (at, _) = self.root(&pattern, end, PATTERN_ACCURACY)?;
+        let at = self.root(&pattern, least.min(end), end, PATTERN_ACCURACY)?;
         self.confirmed(at, pattern)
     }
 
@@ -166,11 +188,10 @@ impl Errors<'_> {
             signs[body] = sign;
             signs
         });
-        for signs in &sides {
-            // The other side may be farther.
-            if self.limit(least, signs).is_some_and(|(limit, _)| limit < least)
-                && let Some((at, _)) = self.root(signs, least, OWN_ACCURACY)
-            {
+        // The first side starts from no error, the second one from the limit of the first: it may be farther.
+        for (signs, is_first) in sides.iter().zip([true, false]) {
+            let start = if is_first { 0.0 } else { least };
+            if let Some(at) = self.root(signs, start, least, OWN_ACCURACY) {
                 least = at;
             }
         }
