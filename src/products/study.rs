@@ -12,7 +12,7 @@ use crate::mechanics::analysis::{Accuracy, Analysis, Options, Verdict};
 use crate::mechanics::program::{Program, Scale, columns, force_primal};
 use crate::mechanics::proof::Proof;
 use crate::mechanics::scene::Scene;
-use crate::mechanics::solve::{Amounts, Conditioning, MAX_ITERATIONS, SolverSettings, Status, TOLERANCE, by_clarabel};
+use crate::mechanics::solve::{Amounts, Conditioning, SolverSettings, Status, TOLERANCE, by_clarabel};
 use crate::mechanics::statics::effect::{self, FrameContext};
 use crate::mechanics::statics::interface::Interfaces;
 
@@ -252,7 +252,7 @@ fn alone(programs: &[Program], tolerance: f64) -> Outcome {
     for program in programs {
         let columns = columns(program);
         let problem = force_primal(&program.loads, &columns, |column| column.cost, None);
-        let answer = by_clarabel(&problem, settings, MAX_ITERATIONS);
+        let answer = by_clarabel(&problem, settings);
         whole.iterations += answer.iterations;
         whole.verdict = whole.verdict.max(match answer.status {
             Status::Solved => Verdict::Stable,

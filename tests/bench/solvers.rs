@@ -17,9 +17,9 @@ use std::hint::black_box;
 use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{
-    Column, Program, QuadraticProgram, Scale, adhesion_columns, columns, kinematic_dual, least_residual_dual,
+    Aim, Column, Program, QuadraticProgram, Scale, adhesion_columns, columns, kinematic_form,
 };
-use drystone::internals::solve::{Conditioning, MAX_ITERATIONS, SolverSettings, Status, by_clarabel, solve_within};
+use drystone::internals::solve::{Conditioning, SolverSettings, Status, by_clarabel, solve_with};
 use serde_json::{Value, json};
 
 use turn::Turns;
@@ -49,11 +49,10 @@ fn main() {
 
 fn print_row(blocks: usize, angle: f64, name: &str, problem: &QuadraticProgram) {
     let settings = SolverSettings::from(Conditioning::Plain);
-    let [ours, theirs] = [solve_within, by_clarabel].map(|solver| solver(problem, settings, MAX_ITERATIONS));
-    let times = TURNS.medians::<&dyn Fn()>(&[
-        &|| drop(black_box(solve_within(black_box(problem), settings, MAX_ITERATIONS))),
-        &|| drop(black_box(by_clarabel(black_box(problem), settings, MAX_ITERATIONS))),
-    ]);
+    let [ours, theirs] = [solve_with, by_clarabel].map(|solver| solver(problem, settings));
+    let times = TURNS.medians::<&dyn Fn()>(&[&|| drop(black_box(solve_with(black_box(problem), settings))), &|| {
+        drop(black_box(by_clarabel(black_box(problem), settings)))
+    }]);
     println!(
         "| {blocks} | {angle}° | {name} | {} | {} | {} | {:.0} | {} | {} | {:.0} | {:.1} |",
         problem.unknowns,
@@ -84,9 +83,9 @@ fn problems(program: &Program) -> [(&'static str, QuadraticProgram); 3] {
     let with_adhesion: Vec<Column> = [all.clone(), adhesion_columns(program)].concat();
     let sticks = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
     [
-        ("least force", kinematic_dual(&program.loads, &all, |c| c.cost).0),
-        ("least residual", least_residual_dual(&loads, &all).0),
-        ("least sticking", kinematic_dual(&loads, &with_adhesion, sticks).0),
+        ("least force", kinematic_form(&program.loads, &all, &Aim::Least(&|c: &Column| c.cost)).0),
+        ("least residual", kinematic_form(&loads, &all, &Aim::Residual).0),
+        ("least sticking", kinematic_form(&loads, &with_adhesion, &Aim::Least(&sticks)).0),
     ]
 }
 

@@ -7,7 +7,7 @@ use drystone::internals::effect::{FrameContext, assemble};
 use drystone::internals::geometry::{Point, Vector, cross};
 use drystone::internals::interface::Interfaces;
 use drystone::internals::program::{
-    Column, Program, Scale, adhesion_columns, columns, force_primal, kinematic_dual, least_residual_dual,
+    Aim, Column, Program, Scale, adhesion_columns, columns, force_primal, kinematic_form,
 };
 use drystone::internals::solve::{Conditioning, Status, TOLERANCE, solve};
 use drystone::scene::{BodyId, Scene};
@@ -237,9 +237,9 @@ fn two_solvers_agree_on_a_thousand_bricks_that_stand_or_fall() {
     for (degrees, stands) in [(0.0, true), (40.0, false)] {
         let program = program(&scene(&tilted(file.clone(), degrees)));
         let (loads, all) = (&program.loads, columns(&program));
-        let least_force = kinematic_dual(loads, &all, |c| c.cost).0;
+        let least_force = kinematic_form(loads, &all, &Aim::Least(&|c: &Column| c.cost)).0;
         let any_balance = force_primal(loads, &all, |_| 0.0, None);
-        let least_residual = least_residual_dual(loads, &all).0;
+        let least_residual = kinematic_form(loads, &all, &Aim::Residual).0;
         let expected =
             if stands { [Status::Solved; 3] } else { [Status::Unbounded, Status::Infeasible, Status::Solved] };
         let problems = [least_force, any_balance, least_residual];
@@ -269,7 +269,7 @@ fn a_wall_a_hundred_thousandth_before_its_limit_is_balanced_quickly() {
     let all = columns(&program);
     let largest = program.loads.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let loads: Vec<f64> = program.loads.iter().map(|v| v / largest).collect();
-    for problem in [force_primal(&loads, &all, |_| 0.0, None), least_residual_dual(&loads, &all).0] {
+    for problem in [force_primal(&loads, &all, |_| 0.0, None), kinematic_form(&loads, &all, &Aim::Residual).0] {
         let answer = solve(&problem, TOLERANCE, Conditioning::Plain);
         assert_eq!(answer.status, Status::Solved);
         assert!(answer.iterations < 60, "{}", answer.iterations);
@@ -294,7 +294,7 @@ fn just_beyond_its_limit_a_wall_needs_the_least_adhesion_by_duality() {
     let mut all = columns(&program);
     all.extend(adhesion_columns(&program));
     let cost = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
-    let (problem, _) = kinematic_dual(&program.loads, &all, cost);
+    let (problem, _) = kinematic_form(&program.loads, &all, &Aim::Least(&cost));
     let y = solve(&problem, TOLERANCE, Conditioning::Plain).x;
     let violated = all.iter().map(|c| c.dot(&y) - cost(c));
     assert!(violated.fold(0.0, f64::max) < 1e-12);

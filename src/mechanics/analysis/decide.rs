@@ -51,7 +51,7 @@ pub(super) use wedging::only_by_wedging;
 use super::{Failure, Options, UndecidedReason, Verdict};
 use crate::mechanics::program::{Program, Scale, UnknownCounts, adhesion_columns, columns};
 use crate::mechanics::proof::{Forces, Motion, Proof, ProofThreshold, fastest};
-use crate::mechanics::solve::{Amounts, Effort, LeastAdhesion, SolverSettings, determinate};
+use crate::mechanics::solve::{Amounts, Balance, Effort, SolverSettings, determinate};
 use crate::mechanics::statics::assembly::Assembly;
 use forces::ProvedForces;
 pub(super) use strategy::LimitDistance;
@@ -100,7 +100,7 @@ pub(super) struct Outcome {
     /// Whether a program of least force ended without a result.
     least_force_failed: bool,
     /// The answer of the program of least adhesion, if it was solved before the failures are computed.
-    least_adhesion: Option<LeastAdhesion>,
+    least_adhesion: Option<Balance>,
     /// Whether only some bodies fall, and the adhesion that these lack is known.
     only_some_fall: bool,
 }

@@ -15,7 +15,7 @@ use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::program::{Column, Force, Program, Scale, columns};
 use crate::mechanics::proof::{Forces, motions_of};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
-use crate::mechanics::solve::{Amounts, Conditioning, Effort, Status, dual};
+use crate::mechanics::solve::{Amounts, Conditioning, Effort, Status, least_cost};
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::Interfaces;
@@ -198,7 +198,7 @@ pub(super) fn cheapest_forces(
         }
         _ => price,
     };
-    let solved = dual(&program.loads, &columns, Conditioning::Full, &mut Effort::default(), cost_of);
+    let solved = least_cost(&program.loads, &columns, Conditioning::Full, &mut Effort::default(), cost_of);
     if solved.status != Status::Solved {
         return Err(solved.status);
     }

@@ -7,7 +7,7 @@ use super::{FrameForm, MotionForm, Step};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::program::{Column, Force, Program, Scale, columns};
 use crate::mechanics::proof::{Motion, net_power};
-use crate::mechanics::solve::{Conditioning, Effort, Status, dual};
+use crate::mechanics::solve::{Conditioning, Effort, Status, least_cost};
 use crate::mechanics::statics::assembly::Assembly;
 
 /// A force up to this share of the heaviest load counts as 0 if bodies are corrected at once; a velocity up to this share
@@ -53,7 +53,7 @@ pub(super) fn opening_motion(assembly: &Assembly, mechanism: &[Motion]) -> Optio
             if is_gain { -1.0 } else { 0.0 }
         };
         let none = vec![0.0; program.loads.len()];
-        let solved = dual(&none, &columns, Conditioning::Full, &mut Effort::default(), cost);
+        let solved = least_cost(&none, &columns, Conditioning::Full, &mut Effort::default(), cost);
         if solved.status != Status::Solved {
             return None;
         }

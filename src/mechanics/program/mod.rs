@@ -20,10 +20,11 @@ mod simpler;
 mod tests;
 
 pub use column::{Column, Force, UnknownCounts, adhesion_columns, columns};
-pub(crate) use pose::product;
+#[cfg(test)]
+use pose::product;
 pub use pose::{
-    Correction, CostCap, QuadraticProgram, force_primal, kinematic_dual, least_change, least_norm, least_residual_dual,
-    least_squares, load_factor_dual, nearest_factor_dual,
+    Aim, Correction, CostCap, Factor, QuadraticProgram, force_primal, kinematic_form, least_change, least_norm,
+    least_squares,
 };
 pub use scale::Scale;
 

@@ -47,11 +47,7 @@ impl QuadraticProgram {
 /// Returns the problem and the row of each column: the multiplier of that row is the amount of the force. The
 /// multiplier of an equality is the amount of the first direction minus that of the second. The second direction has no
 /// row: `usize::MAX` is returned for it.
-pub fn kinematic_dual(
-    loads: &[f64],
-    columns: &[Column],
-    cost: impl Fn(&Column) -> f64,
-) -> (QuadraticProgram, Vec<usize>) {
+fn kinematic_dual(loads: &[f64], columns: &[Column], cost: impl Fn(&Column) -> f64) -> (QuadraticProgram, Vec<usize>) {
     let mut dual = QuadraticProgram {
         unknowns: loads.len(),
         quadratic: Vec::new(),
@@ -113,46 +109,62 @@ fn is_first_of_grip_pair(columns: &[Column], k: usize) -> bool {
     }
 }
 
-/// Returns the dual of the load factor problem. The primal is max λ s.t. Σ amount·column = loads + λ·toward. The dual
-/// is max loadsᵀy s.t. columnᵀy ≤ 0, towardᵀy ≥ 1.
-///
-/// The multiplier of the last row is the largest λ ≥ 0. The returned rows are those of [`kinematic_dual`].
-pub fn load_factor_dual(loads: &[f64], toward: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
-    let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
-    let row = problem.bound.len();
-    let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
-    problem.matrix.extend(entries.map(|(i, v)| (row, i, -v)));
-    problem.bound.push(-1.0);
-    (problem, row_of)
+/// Which load factor λ is sought.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Factor {
+    /// The largest λ ≥ 0.
+    Largest,
+    /// The λ nearest to 0, positive or negative.
+    Nearest,
 }
 
-/// Returns the dual of the problem of the smallest change of the loads. The primal is min |λ| s.t. Σ amount·column =
-/// loads + λ·toward. The dual is max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ towardᵀy ≤ 1.
-///
-/// Also returns the rows that [`kinematic_dual`] returns. λ is the multiplier of the second-last row of the problem
-/// minus the multiplier of the last row.
-pub fn nearest_factor_dual(loads: &[f64], toward: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
-    let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
-    for sign in [-1.0, 1.0] {
-        let row = problem.bound.len();
-        let entries = toward.iter().enumerate().filter(|(_, v)| **v != 0.0);
-        problem.matrix.extend(entries.map(|(i, v)| (row, i, sign * v)));
-        problem.bound.push(1.0);
-    }
-    (problem, row_of)
+/// What is sought among the forces that balance the loads.
+pub enum Aim<'a> {
+    /// The forces of least cost. The function returns the cost of one unit of a column.
+    Least(&'a dyn Fn(&Column) -> f64),
+    /// A λ with which forces balance loads + λ·direction. The number is the largest power of the direction along the
+    /// velocities.
+    Factor(Factor, &'a [f64], f64),
+    /// The forces with the least Σ |residual of the equilibrium equations|.
+    Residual,
 }
 
-/// Returns the dual of the problem of the least residual: the primal is min Σ |residual of the equilibrium equations|,
-/// the dual is max loadsᵀy s.t. columnᵀy ≤ 0, −1 ≤ y ≤ 1.
+/// Returns the kinematic form of a program of forces, and the row of each column. The
+/// second direction of a grip component without limit shares the row of the first and has the row `usize::MAX`.
 ///
-/// The dual always has an optimum. Its multipliers are the forces with the least residual. If y is its solution, −y is
-/// the motion in which the loads have the largest power.
-pub fn least_residual_dual(loads: &[f64], columns: &[Column]) -> (QuadraticProgram, Vec<usize>) {
-    let (mut problem, row_of) = kinematic_dual(loads, columns, |_| 0.0);
-    for row in 0..loads.len() {
-        for sign in [1.0, -1.0] {
-            problem.matrix.push((problem.bound.len(), row, sign));
-            problem.bound.push(1.0);
+/// Without costs, the dual is max loadsᵀy s.t. columnᵀy ≤ 0. Each aim adds rows at the end:
+///
+/// - largest λ: directionᵀy ≥ power; λ is the multiplier of this row;
+/// - nearest λ: −power ≤ directionᵀy ≤ power; λ is the multiplier of the first of the two rows minus that of the second;
+/// - least residual: −1 ≤ y ≤ 1. This dual always has an optimum. −y is the motion in which the loads have the largest
+///   power.
+pub fn kinematic_form(loads: &[f64], columns: &[Column], aim: &Aim) -> (QuadraticProgram, Vec<usize>) {
+    let (mut problem, row_of) = match aim {
+        Aim::Least(cost) => kinematic_dual(loads, columns, cost),
+        _ => kinematic_dual(loads, columns, |_| 0.0),
+    };
+    let mut add = |sign: f64, row: &mut dyn Iterator<Item = (usize, f64)>, bound: f64| {
+        let number = problem.bound.len();
+        problem.matrix.extend(row.filter(|(_, v)| *v != 0.0).map(|(i, v)| (number, i, sign * v)));
+        problem.bound.push(bound);
+    };
+    match aim {
+        Aim::Least(_) => {}
+        Aim::Factor(factor, direction, power) => {
+            let rows: &[(f64, f64)] = match factor {
+                Factor::Largest => &[(-1.0, -power)],
+                Factor::Nearest => &[(-1.0, *power), (1.0, *power)],
+            };
+            for (sign, bound) in rows {
+                add(*sign, &mut direction.iter().copied().enumerate(), *bound);
+            }
+        }
+        Aim::Residual => {
+            for row in 0..loads.len() {
+                for sign in [1.0, -1.0] {
+                    add(sign, &mut [(row, 1.0)].into_iter(), 1.0);
+                }
+            }
         }
     }
     (problem, row_of)
@@ -281,7 +293,7 @@ pub fn force_primal(
 /// of a grip.
 ///
 /// `None` if the forces belong to different contacts or grips, or if only one of them is adhesion.
-pub(crate) fn product(a: &Force, b: &Force) -> Option<f64> {
+pub(super) fn product(a: &Force, b: &Force) -> Option<f64> {
     let ((place, u), (other, v)) = (components(a), components(b));
     (place == other).then(|| u[0] * v[0] + u[1] * v[1] + u[2] * v[2])
 }

@@ -273,7 +273,7 @@ fn the_kinematic_dual_has_a_row_for_every_column() {
     let columns = columns(&program);
     // The robot's force along x and its torque are limited in both directions: four more unknowns, each with one
     // more row.
-    let (conic, row_of) = kinematic_dual(&program.loads, &columns, |c| c.cost);
+    let (conic, row_of) = kinematic_form(&program.loads, &columns, &Aim::Least(&|c: &Column| c.cost));
     assert_eq!((conic.unknowns, conic.equalities), (7, 0));
     assert_eq!(conic.bound.len(), 12 + 4);
     assert_eq!(conic.linear, [0.5, -4.0, 0.75, 1.0, 1.0, 2.0, 2.0]);
@@ -289,18 +289,18 @@ fn the_kinematic_dual_has_a_row_for_every_column() {
         assert_eq!((row(&conic, row_of[k]), conic.bound[row_of[k]]), (expected, 1.0));
     }
     // Without cost, the pair of columns of the unlimited vertical force is one equality.
-    let (conic, row_of) = kinematic_dual(&program.loads, &columns, |_| 0.0);
+    let (conic, row_of) = kinematic_form(&program.loads, &columns, &Aim::Least(&|_: &Column| 0.0));
     assert_eq!((conic.equalities, conic.bound.len()), (1, 11 + 4));
     assert_eq!((row_of[8], row_of[9]), (0, usize::MAX));
     assert_eq!(row(&conic, 0), dense(&columns[8], 7));
     let others: Vec<usize> = row_of.iter().copied().filter(|r| (1..11).contains(r)).collect();
     assert_eq!(others.len(), 10);
 
-    let (conic, _) = load_factor_dual(&program.loads, &[0.0, 2.0, -1.0], &columns);
+    let (conic, _) = kinematic_form(&program.loads, &columns, &Aim::Factor(Factor::Largest, &[0.0, 2.0, -1.0], 1.0));
     let last = conic.bound.len() - 1;
     assert_eq!(row(&conic, last), [0.0, -2.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
     assert_eq!(conic.bound[last], -1.0);
-    let (conic, _) = least_residual_dual(&program.loads, &columns);
+    let (conic, _) = kinematic_form(&program.loads, &columns, &Aim::Residual);
     for (k, sign) in [(0, 1.0), (1, -1.0), (4, 1.0), (5, -1.0)] {
         let at = 15 + k;
         let mut unit = vec![0.0; 7];

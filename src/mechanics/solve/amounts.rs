@@ -1,5 +1,5 @@
-//! [`Amounts`]: the forces at all contacts and grips of a structure. [`Balance`] and [`LeastAdhesion`]: the results of
-//! programs that look for such forces. [`Effort`]: how many programs were solved for a result, and how many iterations
+//! [`Amounts`]: the forces at all contacts and grips of a structure. [`Balance`]: the result of a program that looks for
+//! such forces. [`Effort`]: how many programs were solved for a result, and how many iterations
 //! they took.
 
 use crate::geometry::{Vector, cross, quarter_turn};
@@ -8,7 +8,7 @@ use crate::mechanics::program::{Column, Force, Program};
 /// The forces at all contacts and grips of a program, in program units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Amounts {
-    /// Per contact: the normal forces at its two application points, ≥ 0. In `LeastAdhesion::adhesion` they are tensile
+    /// Per contact: the normal forces at its two application points, ≥ 0. In `Balance::adhesion` they are tensile
     /// forces.
     pub normal: Vec<[f64; 2]>,
     /// Per contact: the friction along the tangent (−n_y, n_x), where n is the contact's normal.
@@ -109,54 +109,26 @@ impl Effort {
     }
 }
 
-/// The result of a program that looks for forces that balance every block.
+/// The result of a program that looks for forces that balance every block, with or without adhesion. If `forces`,
+/// `adhesion` and `motion` are all `None`, the solver ended without a result.
 #[derive(Clone, Debug, Default)]
 pub struct Balance {
-    /// Forces that balance every block, if there are any.
+    /// Admissible forces (pressure, friction and robot forces within their limits) that balance every block, together
+    /// with the adhesion if there is any. `None` if there are no such forces.
     pub forces: Option<Amounts>,
-    /// If no forces balance every block: a motion that no contact resists, three velocities for each block. Along it,
-    /// the loads do more work than the robots can absorb. If both `forces` and `motion` are `None`, the solver ended
-    /// without a result.
+    /// The adhesion (tension, and friction and robot forces beyond their limits) of the balance with the least
+    /// adhesion. `None` if the program has no adhesion, or if not even adhesion balances every block.
+    pub adhesion: Option<Amounts>,
+    /// A motion that no contact resists, three velocities for each block. Along it, the loads do more work than the
+    /// robots can absorb, unless `forces` balance every block without adhesion.
     pub motion: Option<Vec<f64>>,
+    /// True if admissible forces had a small cost in the program of least adhesion. The contacts may then resist the
+    /// motion slightly.
+    pub priced: bool,
     /// If forces of least sum were found: a motion, three velocities for each block, that proves a lower bound of their sum. The
     /// work against each unit force is at most its cost, except for robots at their limits. The bound is the work of
     /// the loads, minus the excess work against these robots.
     pub witness: Option<Vec<f64>>,
-    /// The result of the program of least adhesion, if forces or motion come from it.
-    pub least_adhesion: Option<LeastAdhesion>,
-    /// The number of programs and iterations that were needed.
-    pub effort: Effort,
-}
-
-impl From<LeastAdhesion> for Balance {
-    fn from(found: LeastAdhesion) -> Balance {
-        Balance {
-            forces: (found.balanced == Some(true)).then(|| found.forces.clone()),
-            motion: found.motion.clone(),
-            witness: None,
-            effort: found.effort,
-            least_adhesion: Some(found),
-        }
-    }
-}
-
-/// The least adhesion with which every block of a program is balanced, with the forces of that balance and a motion.
-#[derive(Clone, Debug)]
-pub struct LeastAdhesion {
-    /// True if admissible forces and adhesion together can balance every block; `None` if the solver ended without a
-    /// result.
-    pub balanced: Option<bool>,
-    /// The admissible forces (pressure, friction and robot forces within their limits) of the balance with the least
-    /// adhesion. All are 0 if there is no such balance.
-    pub forces: Amounts,
-    /// The adhesion (tension, and friction and robot forces beyond their limits) of the balance with the least
-    /// adhesion. All are 0 if there is no such balance.
-    pub adhesion: Amounts,
-    /// A motion that no contact resists: three velocities for each block. If the structure needs adhesion, the loads do
-    /// more work along it than the robots can absorb. `None` if the solver ended without a result.
-    pub motion: Option<Vec<f64>>,
-    /// True if admissible forces had a small cost in the program. The contacts may then resist the motion slightly.
-    pub priced: bool,
     /// The number of programs and iterations that were needed.
     pub effort: Effort,
 }

@@ -3,22 +3,22 @@
 //!
 //! [Vallat23](crate::doc::references) §2.0.7, solved through its kinematic dual. Steps:
 //!
-//! 1. solve the dual ([`Dual`]); an unbounded dual is the motion;
+//! 1. solve the kinematic form ([`Optimum`]); an unbounded dual is the motion;
 //! 2. find the face of optima from the basic columns ([`Face::optimal_face`]);
 //! 3. on the face, find the forces of least Σ force², which are unique;
 //! 4. accept them if they balance every block and cost as much as the optimum; otherwise try another margin for step 2.
 //!    If no margin succeeds, use the optimum of step 1.
 
 use super::level::{WIDE_LOAD_RATIO, lightest, refined_optimum, with_least_squares};
+use super::optimum::solve_kinematic_form;
 use super::{
-    Balance, Choice, Conditioning, Dual, Effort, Face, SolverSettings, Status, balance_by_least_change,
-    from_kinematic_answer, largest, least_squares_amounts, refine_balance, remainder, solve_once_within,
-    solve_with_retry,
+    Balance, Choice, Conditioning, Effort, Face, MAX_ITERATIONS, Optimum, SolverSettings, Status,
+    balance_by_least_change, largest, least_squares_amounts, refine_balance, remainder,
 };
-use crate::mechanics::program::{Program, QuadraticProgram, columns, kinematic_dual};
+use crate::mechanics::program::{Aim, Column, Program, columns};
 use crate::mechanics::proof::Proof;
 
-/// Margins of [`Dual::active`] that are tried in turn for the face of optima, dimensionless.
+/// Margins of [`Optimum::active`] that are tried in turn for the face of optima, dimensionless.
 ///
 /// At 1 a column is basic if its amount exceeds its slack. If both are nearly 0, a column may be included by mistake;
 /// the cost then differs, and a smaller margin helps. Near the limit of stability a column may be missing by mistake;
@@ -70,7 +70,7 @@ const FINE_TOLERANCE_FACTOR: f64 = 1e-3;
 
 /// Returns the number of doubtful columns divided by the number of basic columns. A column is doubtful if its amount
 /// and its slack differ by a factor of less than 1000. The result is 0 if the dual is not solved.
-fn doubtful_share(solved: &Dual) -> f64 {
+fn doubtful_share(solved: &Optimum) -> f64 {
     let count = |margin: f64| {
         let active = solved.active(margin).into_iter();
         active.filter(|active| *active).count() as f64
@@ -86,26 +86,22 @@ pub fn balance(program: &Program, conditioning: Conditioning) -> Balance {
     balance_in(program, conditioning.into())
 }
 
-/// Like [`balance`], but the caller chooses all solver settings, not only the conditioning.
-pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
-    balance_within(program, settings, MAX_ITERATIONS_MANY)
-}
-
 /// Like [`balance_in`], but with plain conditioning the solver stops after 15 iterations if the program has many
 /// blocks.
 pub fn balance_at_first_look(program: &Program, settings: SolverSettings) -> Balance {
-    balance_within(program, settings, MAX_ITERATIONS_FIRST_LOOK)
+    balance_in(program, SolverSettings { iterations: MAX_ITERATIONS_FIRST_LOOK, ..settings })
 }
 
-/// Solves the program of least force (steps 1 to 4 of the module header). With plain conditioning and many blocks, the
-/// solver of step 1 stops after `max_iterations` iterations.
-fn balance_within(program: &Program, settings: SolverSettings, max_iterations: usize) -> Balance {
+/// Like [`balance`], but the caller chooses all solver settings, not only the conditioning: steps 1 to 4 of the module
+/// header. The number of iterations holds for step 1 with many blocks.
+pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
     let mut effort = Effort::default();
-    // Step 1: solve the kinematic dual.
+    // Step 1: solve the kinematic form.
     let whole = Face::whole(&program.loads, columns(program));
-    let (solved, face_settings) = solve_dual(program, &whole, settings, max_iterations, &mut effort);
+    let (solved, face_settings) = solve_first(program, &whole, settings, &mut effort);
+    let settings = SolverSettings { iterations: MAX_ITERATIONS, ..settings };
     let mut found = Balance { effort, ..Balance::default() };
-    let motion = || Some(solved.y.iter().map(|v| -v).collect());
+    let motion = || Some(solved.motion());
     match solved.status {
         Status::Solved => {
             let effort = &mut found.effort;
@@ -153,7 +149,7 @@ fn balance_within(program: &Program, settings: SolverSettings, max_iterations: u
 fn balance_by_levels(
     program: &Program,
     whole: &Face,
-    solved: &Dual,
+    solved: &Optimum,
     settings: SolverSettings,
     effort: &mut Effort,
 ) -> Option<Balance> {
@@ -168,43 +164,37 @@ fn balance_by_levels(
     let optimum = refined_optimum(loads, columns, |c| c.cost, solved, light, effort)?;
     let face = whole.optimal_face(&optimum, 1.0);
     let (forces, _) = with_least_squares(face, light, settings, effort).to_forces(program);
-    Some(Balance {
-        forces: Some(forces),
-        witness: Some(optimum.y.iter().map(|v| -v).collect()),
-        effort: *effort,
-        ..Balance::default()
-    })
+    Some(Balance { forces: Some(forces), witness: Some(optimum.motion()), effort: *effort, ..Balance::default() })
 }
 
-/// Step 1: solves the kinematic dual. Returns its solution, and the settings for the least-squares problem on the face
-/// of optima.
-fn solve_dual(
+/// Step 1: solves the kinematic form. Returns its optimum, and the settings for the least-squares problem on the face of
+/// optima.
+fn solve_first(
     program: &Program,
     whole: &Face,
     settings: SolverSettings,
-    max_iterations: usize,
     effort: &mut Effort,
-) -> (Dual, SolverSettings) {
-    let (dual, row_of) = kinematic_dual(&whole.loads, &whole.columns, |c| c.cost);
-    let read =
-        |dual: &QuadraticProgram, answer| from_kinematic_answer(&whole.loads, &whole.columns, dual, &row_of, answer);
-    let has_many_blocks = program.has_many_blocks();
-    let answer = if settings.conditioning == Conditioning::Plain && has_many_blocks {
-        solve_once_within(&dual, settings, max_iterations, effort)
-    } else {
-        solve_with_retry(&dual, settings, effort)
+) -> (Optimum, SolverSettings) {
+    let cost = |column: &Column| column.cost;
+    let mut solve = |attempts: &[SolverSettings]| {
+        solve_kinematic_form(&whole.loads, &whole.columns, &Aim::Least(&cost), attempts.iter().copied(), effort)
     };
+    let usual = SolverSettings { iterations: MAX_ITERATIONS, ..settings };
+    if !program.has_many_blocks() {
+        return (solve(&usual.with_retry().collect::<Vec<_>>()), usual);
+    }
+    let short = |most: usize| SolverSettings { iterations: most.min(MAX_ITERATIONS_MANY), ..settings };
+    let solved =
+        solve(&[if settings.conditioning == Conditioning::Plain { short(settings.iterations) } else { usual }]);
     // If many columns are doubtful (see `doubtful_share`), solve again to a finer tolerance.
-    let solved = read(&dual, &answer);
-    if has_many_blocks && settings.choice == Choice::Unique && doubtful_share(&solved) > MAX_DOUBTFUL_SHARE {
-        let fine = SolverSettings { tolerance: FINE_TOLERANCE_FACTOR * settings.tolerance, ..settings };
-        let answer = solve_once_within(&dual, fine, MAX_ITERATIONS_MANY, effort);
-        if answer.status == Status::Solved {
-            let full = SolverSettings { conditioning: Conditioning::Full, ..settings };
-            return (read(&dual, &answer), full);
+    if settings.choice == Choice::Unique && doubtful_share(&solved) > MAX_DOUBTFUL_SHARE {
+        let tolerance = FINE_TOLERANCE_FACTOR * settings.tolerance;
+        let finer = solve(&[SolverSettings { tolerance, ..short(MAX_ITERATIONS_MANY) }]);
+        if finer.status == Status::Solved {
+            return (finer, SolverSettings { conditioning: Conditioning::Full, ..usual });
         }
     }
-    (solved, settings)
+    (solved, usual)
 }
 
 /// Steps 2 to 4: among the balances of least cost, finds the one of least Σ force². `None` if none of the
@@ -214,7 +204,7 @@ fn solve_dual(
 fn least_squares_balance(
     program: &Program,
     whole: &Face,
-    solved: &Dual,
+    solved: &Optimum,
     settings: [SolverSettings; 2],
     effort: &mut Effort,
 ) -> Option<Face> {

@@ -6,8 +6,7 @@
 
 use super::amounts::{Amounts, Effort};
 use super::answer::Status;
-use super::dual::{Dual, solve_with_retry};
-use super::exact;
+use super::optimum::{Optimum, solve_in_turn};
 use super::settings::SolverSettings;
 use crate::mechanics::program::{Column, Program, least_squares};
 
@@ -40,11 +39,11 @@ impl Face {
     }
 
     /// Returns the face of optima of a linear program on this face. `solved` is the solution of the program; its basic
-    /// columns (see [`Dual::active`]) belong to the face of optima.
+    /// columns (see [`Optimum::active`]) belong to the face of optima.
     ///
     /// A limited column counts as being at its limit if the multiplier of the limit exceeds the distance of its amount
     /// from the limit. Such columns are fixed; otherwise not every balance on the face would be an optimum.
-    pub fn optimal_face(&self, solved: &Dual, margin: f64) -> Face {
+    pub fn optimal_face(&self, solved: &Optimum, margin: f64) -> Face {
         let mut face = Face { columns: Vec::new(), amounts: Vec::new(), ..self.clone() };
         let active = solved.active(margin);
         for (k, column) in self.columns.iter().enumerate() {
@@ -61,7 +60,7 @@ impl Face {
     }
 
     /// Returns the face restricted to the columns for which `keep(column, amount)` is true.
-    pub fn restrict(&self, keep: impl Fn(&Column, f64) -> bool) -> Face {
+    pub fn restrict(&self, mut keep: impl FnMut(&Column, f64) -> bool) -> Face {
         let mut face = Face { columns: Vec::new(), amounts: Vec::new(), ..self.clone() };
         for (column, amount) in self.columns.iter().zip(&self.amounts) {
             if keep(column, *amount) {
@@ -105,9 +104,6 @@ impl Face {
 }
 
 /// Computes the amounts ≥ 0 of least Σ force² that balance the loads. `None` if the solver finds no such amounts.
-///
-/// If the balance is unique, or if [`exact`] can prove that its result is the optimum, elimination computes it to
-/// machine precision. Otherwise a quadratic program is solved.
 pub(super) fn least_squares_amounts(
     loads: &[f64],
     columns: &[Column],
@@ -117,11 +113,6 @@ pub(super) fn least_squares_amounts(
     if columns.is_empty() {
         return Some(Vec::new());
     }
-    if let Some(amounts) =
-        exact::unique_balance(loads, columns).or_else(|| exact::least_squares_balance(loads, columns))
-    {
-        return Some(amounts);
-    }
-    let answer = solve_with_retry(&least_squares(loads, columns, None), settings, effort);
+    let answer = solve_in_turn(&least_squares(loads, columns, None), settings.with_retry(), effort);
     (answer.status == Status::Solved).then(|| answer.x.iter().map(|v| v.max(0.0)).collect())
 }

@@ -16,12 +16,12 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::basis_factor::{elimination_order, placed};
-use super::dual::{ReducedColumns, columns_in, from_kinematic_answer};
 use super::limit::farthest_cost;
+use super::scaled::ScaledProgram;
 use super::simplex::{MIN_PIVOT, Move, Simplex, Variable};
-use super::{Amounts, Conditioning, Dual, Status, TOLERANCE, is_late, largest, solve};
+use super::{Amounts, Conditioning, Effort, Optimum, Status, is_late};
 use crate::geometry::{Vector, cross, quarter_turn};
-use crate::mechanics::program::{Column, Force, Program, kinematic_dual};
+use crate::mechanics::program::{Aim, Column, Force, Program};
 
 /// All forces of a grip: a convex polygon, which may be unbounded on one side.
 #[derive(Clone, Debug)]
@@ -101,19 +101,15 @@ pub fn force_polygon(program: &Program, grip: usize) -> Option<ForcePolygon> {
 /// Finds a farthest force by an interior-point method, and a basis with as many columns of this optimum as possible.
 /// `None` if there is no farthest force in any direction that is tried, or if no suitable basis is found.
 fn first_basis(program: &Program, grip: usize) -> Option<Walk<'_>> {
-    let load = match largest(&program.loads) {
-        0.0 => 1.0,
-        load => load,
-    };
-    let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
-    let columns = ReducedColumns::new(&columns_in(program, load)).columns;
-    let position = elimination_order(&columns, program.blocks)?;
+    let scaled = ScaledProgram::new(program);
+    let ScaledProgram { load, loads, columns, .. } = &scaled;
+    let position = elimination_order(columns, program.blocks)?;
     let mut placed_loads = vec![0.0; loads.len()];
     for (load, position) in loads.iter().zip(&position) {
         placed_loads[*position] = *load;
     }
-    let (normal, optimum) = first_optimum(&loads, &columns, grip)?;
-    let unknowns = unknowns(&columns, &optimum, &position);
+    let (normal, optimum) = first_optimum(&scaled, grip)?;
+    let unknowns = unknowns(columns, &optimum, &position);
     let own = |component: usize| {
         let is_own = |force: &Force| {
             matches!(
@@ -131,7 +127,7 @@ fn first_basis(program: &Program, grip: usize) -> Option<Walk<'_>> {
     let mut free = (0..unknowns.len()).filter(|k| is_free(&unknowns[*k].variable));
     free.all(|k| simplex.is_basic(k)).then(|| Walk {
         program,
-        load,
+        load: *load,
         forces: unknowns.iter().map(|unknown| unknown.force).collect(),
         moves_left: MAX_MOVES_PER_ROW * loads.len(),
         position,
@@ -144,17 +140,14 @@ fn first_basis(program: &Program, grip: usize) -> Option<Walk<'_>> {
 /// Tries the directions [`FIRST_ANGLES`] in turn until there is a farthest force of the grip in this direction. Returns
 /// the direction and the optimum. `None` if there is no such direction, if no force balances the loads, or if the
 /// solver ends without a result.
-fn first_optimum(loads: &[f64], columns: &[Column], grip: usize) -> Option<(Vector, Dual)> {
+fn first_optimum(scaled: &ScaledProgram, grip: usize) -> Option<(Vector, Optimum)> {
     for angle in FIRST_ANGLES {
         let (sin, cos) = libm::sincos(angle);
         let direction = Vector::new(cos, sin);
-        let (problem, row_of) = kinematic_dual(loads, columns, farthest_cost(grip, direction));
-        let answer = solve(&problem, TOLERANCE, Conditioning::Plain);
-        match answer.status {
-            Status::Solved => {
-                let optimum = from_kinematic_answer(loads, columns, &problem, &row_of, &answer);
-                return Some((direction, optimum));
-            }
+        let cost = farthest_cost(grip, direction);
+        let optimum = scaled.solve(&Aim::Least(&cost), [Conditioning::Plain.into()], &mut Effort::default());
+        match optimum.status {
+            Status::Solved => return Some((direction, optimum)),
             // Forces of any size are possible in this direction.
             Status::Infeasible => {}
             Status::Unbounded | Status::Unsolved => return None,
@@ -173,7 +166,7 @@ struct Unknown {
 
 /// Returns the unknowns of the simplex method with their amounts at an optimum. The two directions of a grip component
 /// become one unknown, whose amount may be negative.
-fn unknowns(columns: &[Column], optimum: &Dual, position: &[usize]) -> Vec<Unknown> {
+fn unknowns(columns: &[Column], optimum: &Optimum, position: &[usize]) -> Vec<Unknown> {
     let is_active = optimum.active(1.0);
     let unknown = |(k, column): (usize, &Column)| {
         let (lower, amount, rank) = match column.force {

@@ -3,8 +3,9 @@
 //!
 //! Reference: Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12.
 
+use super::optimum::solve_in_turn;
 use super::settings::ROUNDING_TOL;
-use super::{Conditioning, Effort, SolverSettings, Status, largest, remainder, solve_with_retry};
+use super::{Conditioning, Effort, SolverSettings, Status, largest, remainder};
 use crate::mechanics::program::{Column, Correction, least_norm, least_squares};
 
 /// The largest number of rounds of [`refine_balance`]. Each round adds about nine correct digits, so two
@@ -28,7 +29,7 @@ pub(super) fn balance_by_least_change(
         return amounts;
     }
     let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();
-    let answer = solve_with_retry(&least_norm(&scaled, columns), settings, effort);
+    let answer = solve_in_turn(&least_norm(&scaled, columns), settings.with_retry(), effort);
     if answer.status != Status::Solved {
         return amounts;
     }
@@ -57,7 +58,8 @@ pub(super) fn refine_balance(
         let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();
         // Solve for a correction that removes the residual. The residual is scaled to size 1.
         let correction = Correction { amounts: &amounts, size };
-        let answer = solve_with_retry(&least_squares(&scaled, columns, Some(correction)), Conditioning::Full, effort);
+        let problem = least_squares(&scaled, columns, Some(correction));
+        let answer = solve_in_turn(&problem, [Conditioning::Full.into()], effort);
         if answer.status != Status::Solved {
             break;
         }

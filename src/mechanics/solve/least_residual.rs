@@ -1,4 +1,4 @@
-//! Two linear programs for a structure near its limit of stability, where the linear program of least force fails. One
+//! Two linear programs for a structure near its limit of stability, where the program of least force fails. One
 //! finds any forces that balance the loads, the other finds forces with the least residual.
 //!
 //! Near that limit the program of least force ends without a result: just before the limit its optimum grows without
@@ -12,12 +12,12 @@
 //!   The program has an optimum on both sides of the limit. The size of the residual shows whether the forces balance
 //!   within the tolerance of the proofs.
 
-use super::dual::{ScaledProgram, amounts_of_rows};
+use super::optimum::solve_static_form;
+use super::scaled::ScaledProgram;
 use super::{
-    Amounts, Balance, Conditioning, Status, TOLERANCE, balance_by_least_change, largest, remainder, solve_static_form,
-    solve_with_retry,
+    Amounts, Balance, Conditioning, SolverSettings, Status, TOLERANCE, balance_by_least_change, largest, remainder,
 };
-use crate::mechanics::program::{Program, least_residual_dual};
+use crate::mechanics::program::{Aim, Program};
 
 /// A motion is a reliable proof of the fall if its power exceeds this multiple of Σ |velocity| times the largest load.
 ///
@@ -44,7 +44,7 @@ pub fn any_balance(program: &Program) -> Balance {
             let power: f64 = loads.iter().zip(&balance.y).map(|(n, v)| n * v).sum();
             let speed_sum: f64 = balance.y.iter().map(|v| v.abs()).sum();
             found.forces = (power > MIN_POWER * speed_sum).then(|| Amounts::zero(program));
-            found.motion = Some(balance.y.iter().map(|v| -v).collect());
+            found.motion = Some(balance.motion());
         }
         _ => {}
     }
@@ -56,11 +56,11 @@ pub fn any_balance(program: &Program) -> Balance {
 pub fn least_residual(program: &Program) -> Balance {
     let scaled = ScaledProgram::new(program);
     let mut found = Balance::default();
-    let (conic, row_of) = least_residual_dual(&scaled.loads, &scaled.columns);
-    let answer = solve_with_retry(&conic, Conditioning::Plain, &mut found.effort);
-    if answer.status == Status::Solved {
-        found.forces = Some(scaled.forces(amounts_of_rows(&answer, &row_of)));
-        found.motion = Some(scaled.motion(&answer));
+    let attempts = SolverSettings::from(Conditioning::Plain).with_retry();
+    let solved = scaled.solve(&Aim::Residual, attempts, &mut found.effort);
+    if solved.status == Status::Solved {
+        found.motion = Some(solved.motion());
+        found.forces = Some(scaled.forces(solved.amounts));
     }
     found
 }

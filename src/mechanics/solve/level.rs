@@ -16,15 +16,12 @@
 //! The velocities of a light body are not accurate until the loads of a level have the size of its load. Each level
 //! adds about six correct digits.
 //!
-//! Computes the least adhesion accurately if the loads differ by more powers of ten than a solver has correct digits.
-//!
-//! The stages are those of [`super::least_adhesion()`], but the optimum of each stage is refined level by level
-//! ([`super::level`]). Even the adhesion of a stone of a gram on a block of a hundred tons then has correct digits. A
-//! column leaves the face of optima if its amount is exactly 0; no threshold relative to the largest force is used.
+//! [`precise_optimum`] refines the least adhesion if the loads differ by more powers of ten than a solver has correct
+//! digits. Even the adhesion of a stone of a gram on a block of a hundred tons then has correct digits.
 
+use super::optimum::solve_in_turn;
 use super::{
-    Conditioning, Dual, Effort, Face, SolverSettings, Status, dual, largest, least_squares_amounts, refine_balance,
-    solve_with_retry,
+    Conditioning, Effort, Face, Optimum, SolverSettings, Status, largest, least_squares_amounts, refine_balance,
 };
 use crate::geometry::CompensatedSum;
 use crate::mechanics::program::{Column, QuadraticProgram};
@@ -120,10 +117,10 @@ pub(super) fn refined_optimum(
     loads: &[f64],
     columns: &[Column],
     cost: impl Fn(&Column) -> f64,
-    start: &Dual,
+    start: &Optimum,
     force_size: f64,
     effort: &mut Effort,
-) -> Option<Dual> {
+) -> Option<Optimum> {
     let costs: Vec<f64> = columns.iter().map(cost).collect();
     let mut at = start.clone();
     for _ in 0..MAX_LEVELS {
@@ -175,7 +172,7 @@ struct Level {
 }
 
 impl Level {
-    fn new(loads: &[f64], columns: &[Column], costs: &[f64], at: &Dual) -> Option<Level> {
+    fn new(loads: &[f64], columns: &[Column], costs: &[f64], at: &Optimum) -> Option<Level> {
         // Step 1: compute the residual.
         let rho = largest(&residual(loads, columns, &at.amounts));
         // Step 2: classify each column, and choose its initial amount for this level.
@@ -245,9 +242,15 @@ impl Level {
 
     /// Steps 3 and 4: solves the program of changes, and returns the corrected optimum. `None` if the solver finds no
     /// optimum.
-    fn corrected_optimum(&self, columns: &[Column], costs: &[f64], mut at: Dual, effort: &mut Effort) -> Option<Dual> {
+    fn corrected_optimum(
+        &self,
+        columns: &[Column],
+        costs: &[f64],
+        mut at: Optimum,
+        effort: &mut Effort,
+    ) -> Option<Optimum> {
         let program = self.program_of_changes(columns, costs, &at.y);
-        let answer = solve_with_retry(&program, Conditioning::Full, effort);
+        let answer = solve_in_turn(&program, [Conditioning::Full.into()], effort);
         if answer.status != Status::Solved {
             return None;
         }
@@ -292,15 +295,12 @@ const ZERO_ADHESION: f64 = 1e-15;
 /// [`ZERO_ADHESION`] for many blocks, where a refinement takes long. It is a tenth of the solver's tolerance.
 const ZERO_ADHESION_MANY: f64 = 1e-10;
 
-/// Sums of adhesion whose relative difference is at most this count as equal. It is a hundredth of the error that a
-/// result may have.
-const SUM_TOL: f64 = 1e-8;
+/// Refined sums of adhesion whose relative difference is at most this count as equal. It is a hundredth of the error
+/// that a result may have.
+pub(super) const SUM_TOL_PRECISE: f64 = 1e-8;
 
 /// If the refined sum of adhesion is below this multiple of the smallest accurate force, the optimum is refined again.
 const REFINE_AGAIN_RATIO: f64 = 1e-2;
-
-/// The largest number of rounds of stage 3.
-const MAX_ROUNDS: usize = 4;
 
 /// Returns the size of the smallest forces that must be accurate, in the units of the loads.
 ///
@@ -323,13 +323,13 @@ fn smallest_accurate_force(loads: &[f64], least_sum: f64, has_many_blocks: bool)
 /// therefore refined again.
 pub(super) fn precise_optimum(
     whole: &Face,
-    first: &Dual,
+    first: &Optimum,
     has_many_blocks: bool,
     effort: &mut Effort,
-) -> Option<(Dual, f64)> {
+) -> Option<(Optimum, f64)> {
     let (loads, columns) = (&whole.loads, &whole.columns);
     let cost = |c: &Column| f64::from(u8::from(c.force.is_adhesion()));
-    let mut refined = |start: &Dual| {
+    let mut refined = |start: &Optimum| {
         let least_sum = whole.adhesion_sum(&start.amounts);
         let force_size = smallest_accurate_force(loads, least_sum, has_many_blocks)?;
         let found = refined_optimum(loads, columns, cost, start, force_size, effort)?;
@@ -341,89 +341,4 @@ pub(super) fn precise_optimum(
     } else {
         Some((found, force_size))
     }
-}
-
-/// Chooses one balance among all balances of least adhesion: the least force first, then the fewest points with
-/// adhesion, then the least Σ force².
-///
-/// `first` is the refined optimum of stage 1. A stage that ends without an optimum is skipped.
-pub(super) fn least_force_optimum(
-    whole: &Face,
-    first: &Dual,
-    force_size: f64,
-    settings: SolverSettings,
-    effort: &mut Effort,
-) -> Face {
-    let face = whole.optimal_face(first, 1.0);
-    let least_sum = face.adhesion_sum(&face.amounts);
-    // A column whose true slack is smaller than the solver's error may be on the face by mistake. If a later stage
-    // increases the adhesion by using such a column, its result is rejected.
-    let unchanged = |face: &Face| face.adhesion_sum(&face.amounts) <= (1.0 + SUM_TOL) * least_sum;
-    // Stage 2: least force.
-    let second = optimum(&face, force_size, settings, effort, |c| c.cost);
-    let narrower = second.map(|second| face.optimal_face(&second, 1.0));
-    let face = narrower.filter(unchanged).unwrap_or(face);
-    // Stages 3 and 4: fewest points, then least squares.
-    let concentrated = concentrate(face.clone(), force_size, settings, effort);
-    let face = Some(concentrated).filter(unchanged).unwrap_or(face);
-    let squares = with_least_squares(face.clone(), force_size, settings, effort);
-    Some(squares).filter(unchanged).unwrap_or(face)
-}
-
-/// Computes the optimum on a face for the given costs, accurate relative to the load of each body. `None` if no optimum
-/// is found.
-fn optimum(
-    face: &Face,
-    force_size: f64,
-    settings: SolverSettings,
-    effort: &mut Effort,
-    cost: impl Fn(&Column) -> f64,
-) -> Option<Dual> {
-    let solved = dual(&face.loads, &face.columns, settings, effort, &cost);
-    let start = (solved.status == Status::Solved).then_some(solved)?;
-    refined_optimum(&face.loads, &face.columns, cost, &start, force_size, effort)
-}
-
-/// Stage 3: reduces the face to few points with adhesion.
-///
-/// In each round, the cost of an adhesion column increases if its amount is small. The amount is measured relative to
-/// the smaller load of the two bodies on which the column acts.
-fn concentrate(mut face: Face, force_size: f64, settings: SolverSettings, effort: &mut Effort) -> Face {
-    // The smallest nonzero load of the blocks on which a column acts; 1 if there is none.
-    let block_loads = block_loads(&face.loads);
-    let lighter_load = |column: &Column| {
-        let loads = column.entries().map(|(row, _)| block_loads[row / 3]);
-        let light = loads.filter(|load| *load > 0.0).fold(f64::INFINITY, f64::min);
-        if light.is_finite() { light } else { 1.0 }
-    };
-    for _ in 0..MAX_ROUNDS {
-        let adheres = |column: &&Column| column.force.is_adhesion();
-        let before = face.columns.iter().filter(adheres).count();
-        if before < 2 {
-            break;
-        }
-        // Reweighting: the cost of a column is nearly proportional to 1/share, where share = amount / smaller load. It
-        // is at most about a thousand times the cost of the column with the largest share.
-        let columns = face.columns.iter().zip(&face.amounts);
-        let shares: Vec<f64> = columns
-            .map(|(column, amount)| if column.force.is_adhesion() { amount / lighter_load(column) } else { 0.0 })
-            .collect();
-        let largest_share = largest(&shares);
-        for (column, share) in face.columns.iter_mut().zip(&shares) {
-            if column.force.is_adhesion() {
-                column.cost = 1e-2 * largest_share / (share + 1e-3 * largest_share);
-            }
-        }
-        let cost = |c: &Column| if c.force.is_adhesion() { c.cost } else { 0.0 };
-        let Some(solved) = optimum(&face, force_size, settings, effort, cost) else {
-            break;
-        };
-        // Drop the adhesion columns whose amount is exactly 0; stop if there are no such columns.
-        face.amounts = solved.amounts;
-        face = face.restrict(|column, amount| !column.force.is_adhesion() || amount > 0.0);
-        if face.columns.iter().filter(adheres).count() == before {
-            break;
-        }
-    }
-    face
 }

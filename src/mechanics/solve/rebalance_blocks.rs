@@ -13,9 +13,10 @@
 //! Residuals are small differences of large forces, so they are summed with twice the digits of f64. Reference: Higham,
 //! Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative refinement).
 
+use super::optimum::solve_in_turn;
 use super::settings::ROUNDING_TOL;
 use super::solver::all_finite;
-use super::{Amounts, Conditioning, Effort, Status, solve_with_retry};
+use super::{Amounts, Conditioning, Effort, Status};
 use crate::geometry::{CompensatedSum, Vector, quarter_turn};
 use crate::mechanics::program::{Column, Correction, Force, Program, QuadraticProgram, columns, least_squares};
 
@@ -173,7 +174,7 @@ pub fn rebalance_relative(program: &Program, amounts: &Amounts, effort: &mut Eff
         if !all_finite(&conic) {
             break;
         }
-        let answer = solve_with_retry(&conic, Conditioning::Full, effort);
+        let answer = solve_in_turn(&conic, [Conditioning::Full.into()], effort);
         if answer.status != Status::Solved {
             break;
         }
@@ -286,7 +287,7 @@ fn correct_once(
     if !all_finite(&conic) {
         return None;
     }
-    let answer = solve_with_retry(&conic, Conditioning::Full, effort);
+    let answer = solve_in_turn(&conic, [Conditioning::Full.into()], effort);
     if answer.status != Status::Solved {
         return None;
     }

@@ -8,7 +8,8 @@
 //! so that rounding closes none. Otherwise, contacts that cannot open stay closed up to rounding errors. Reference:
 //! Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 12 (iterative refinement).
 
-use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE, solve_with_retry};
+use super::optimum::solve_in_turn;
+use super::{Conditioning, Effort, SolverSettings, Status, TOLERANCE};
 use crate::mechanics::program::{Column, Force, Program, columns, least_change};
 use crate::mechanics::proof::NON_BINDING_RATIO;
 
@@ -101,7 +102,7 @@ fn open_contacts(
             tolerance: (TOLERANCE_SHARE * tolerance / worst).clamp(TOLERANCE, MAX_TOLERANCE),
             ..Conditioning::Plain.into()
         };
-        let answer = solve_with_retry(&conic, settings, effort);
+        let answer = solve_in_turn(&conic, settings.with_retry(), effort);
         if answer.status != Status::Solved {
             return (extra == 0.0 && round > 0).then_some(motion);
         }

@@ -22,6 +22,8 @@ pub const MAX_ITERATIONS: usize = 100;
 pub struct SolverSettings {
     /// The tolerance of feasibility and duality gap.
     pub tolerance: f64,
+    /// The largest number of iterations for one program.
+    pub iterations: usize,
     /// A different stopping rule for the solver on the normal equations. With `None` it stops at the tolerance, as
     /// clarabel always does.
     pub crossover: Option<CrossoverTolerance>,
@@ -71,9 +73,19 @@ pub enum Choice {
 }
 
 impl From<Conditioning> for SolverSettings {
-    /// Returns settings with this conditioning, the default tolerance, no crossover and [`Choice::Unique`].
+    /// Returns settings with this conditioning, the default tolerance and number of iterations, no crossover and
+    /// [`Choice::Unique`].
     fn from(conditioning: Conditioning) -> SolverSettings {
-        SolverSettings { tolerance: TOLERANCE, crossover: None, conditioning, choice: Choice::Unique }
+        let iterations = MAX_ITERATIONS;
+        SolverSettings { tolerance: TOLERANCE, iterations, crossover: None, conditioning, choice: Choice::Unique }
+    }
+}
+
+impl SolverSettings {
+    /// Returns these settings and, if their conditioning is plain, the same with full conditioning.
+    pub(super) fn with_retry(self) -> impl Iterator<Item = SolverSettings> {
+        let full = SolverSettings { conditioning: Conditioning::Full, ..self };
+        [self, full].into_iter().take(if self.conditioning == Conditioning::Plain { 2 } else { 1 })
     }
 }
 

@@ -22,7 +22,7 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, S
 
 use super::answer::{Answer, Status, is_finite};
 use super::normal;
-use super::settings::{Conditioning, MAX_ITERATIONS, SolverSettings, StoppingCriteria, deadline, is_late};
+use super::settings::{Conditioning, SolverSettings, StoppingCriteria, deadline, is_late};
 use crate::clock::Instant;
 use crate::mechanics::program::QuadraticProgram;
 
@@ -32,16 +32,15 @@ use crate::mechanics::program::QuadraticProgram;
 /// Panics if the data contain a number that is not finite. Scenes are checked when they are read, so this would be a
 /// bug.
 pub fn solve(problem: &QuadraticProgram, tolerance: f64, conditioning: Conditioning) -> Answer {
-    let settings = SolverSettings { tolerance, ..conditioning.into() };
-    solve_within(problem, settings, MAX_ITERATIONS)
+    solve_with(problem, SolverSettings { tolerance, ..conditioning.into() })
 }
 
-/// Solves a linear or quadratic program in at most `iterations` iterations. If they are not enough, or if the deadline
+/// Solves a linear or quadratic program with the given settings. If the iterations are not enough, or if the deadline
 /// has passed, the status is `Unsolved`.
 ///
 /// # Panics
 /// Panics in the same case as [`solve`].
-pub fn solve_within(problem: &QuadraticProgram, settings: SolverSettings, iterations: usize) -> Answer {
+pub fn solve_with(problem: &QuadraticProgram, settings: SolverSettings) -> Answer {
     // Do not start after the deadline: before its first iteration, a large program needs an ordering and a
     // factorisation, which take as long as many iterations.
     if is_late() {
@@ -52,14 +51,14 @@ pub fn solve_within(problem: &QuadraticProgram, settings: SolverSettings, iterat
         let criteria = StoppingCriteria {
             tolerance: settings.tolerance,
             crossover: settings.crossover,
-            iterations,
+            iterations: settings.iterations,
             deadline: deadline(),
         };
         if let Some(answer) = normal::solve(problem, criteria) {
             return answer;
         }
     }
-    by_clarabel(problem, settings, iterations)
+    by_clarabel(problem, settings)
 }
 
 /// True if every number of a program is finite.
@@ -69,7 +68,7 @@ pub(super) fn all_finite(problem: &QuadraticProgram) -> bool {
 }
 
 /// Solves a quadratic program of any size with clarabel. All numbers of the program must be finite.
-pub fn by_clarabel(problem: &QuadraticProgram, settings: SolverSettings, iterations: usize) -> Answer {
+pub fn by_clarabel(problem: &QuadraticProgram, settings: SolverSettings) -> Answer {
     let rows = problem.bound.len();
     let quadratic = compressed_columns(problem.unknowns, problem.unknowns, &problem.quadratic);
     let matrix = compressed_columns(rows, problem.unknowns, &problem.matrix);
@@ -85,7 +84,7 @@ pub fn by_clarabel(problem: &QuadraticProgram, settings: SolverSettings, iterati
     if time_left.is_some_and(|time| time.is_zero()) {
         return Answer::without_status(problem);
     }
-    let settings = clarabel_settings(settings, iterations, time_left);
+    let settings = clarabel_settings(settings, time_left);
     let solver = DefaultSolver::new(&quadratic, &problem.linear, &matrix, &problem.bound, &cones, settings);
     let Ok(mut solver) = solver else {
         return Answer::without_status(problem);
@@ -105,8 +104,8 @@ pub fn by_clarabel(problem: &QuadraticProgram, settings: SolverSettings, iterati
 }
 
 /// Returns the settings of clarabel. `time_left` is the time until the deadline, if there is one.
-fn clarabel_settings(settings: SolverSettings, iterations: usize, time_left: Option<Duration>) -> DefaultSettings<f64> {
-    let SolverSettings { tolerance, conditioning, .. } = settings;
+fn clarabel_settings(settings: SolverSettings, time_left: Option<Duration>) -> DefaultSettings<f64> {
+    let SolverSettings { tolerance, iterations, conditioning, .. } = settings;
     let is_full = conditioning == Conditioning::Full;
     DefaultSettings {
         verbose: false,

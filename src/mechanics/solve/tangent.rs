@@ -9,11 +9,11 @@
 //! points. Its zero is the next value to try: Newton's method on V. Reference: Nocedal and Wright, Numerical
 //! Optimization, 2006, section 12.8 (multipliers and sensitivity).
 
-use super::dual::{ScaledProgram, amounts_of_rows};
 use super::limit::rebalanced;
-use super::{Amounts, Conditioning, Effort, Status, largest, solve_with_retry};
+use super::scaled::ScaledProgram;
+use super::{Amounts, Conditioning, Effort, Optimum, SolverSettings, Status, largest};
 use crate::geometry::{Vector, quarter_turn};
-use crate::mechanics::program::{Column, Force, Program, least_residual_dual};
+use crate::mechanics::program::{Aim, Column, Force, Program};
 
 /// The optimum of the program of least residual, from which [`Tangent::estimate_residual`] estimates the residual of
 /// other programs.
@@ -22,8 +22,7 @@ pub struct Tangent {
     /// V: Σ |residual|, relative to the largest load.
     pub residual_sum: f64,
     columns: Vec<Column>,
-    amounts: Vec<f64>,
-    y: Vec<f64>,
+    optimum: Optimum,
     /// The work of the contact forces along y.
     work: f64,
 }
@@ -34,21 +33,16 @@ impl Tangent {
         if largest(&program.loads) == 0.0 {
             return None;
         }
-        let ScaledProgram { loads, columns, .. } = ScaledProgram::new(program);
-        let (conic, row_of) = least_residual_dual(&loads, &columns);
-        let answer = solve_with_retry(&conic, Conditioning::Plain, &mut Effort::default());
-        if answer.status != Status::Solved {
+        let scaled = ScaledProgram::new(program);
+        let optimum = scaled.solve(
+            &Aim::Residual,
+            SolverSettings::from(Conditioning::Plain).with_retry(),
+            &mut Effort::default(),
+        );
+        if optimum.status != Status::Solved {
             return None;
         }
-        // V is the optimal value; the solver minimises its negative.
-        let objective = conic.linear.iter().zip(&answer.x).map(|(q, x)| q * x);
-        let mut tangent = Tangent {
-            residual_sum: -objective.sum::<f64>(),
-            amounts: amounts_of_rows(&answer, &row_of),
-            columns,
-            y: answer.x[..loads.len()].to_vec(),
-            work: 0.0,
-        };
+        let mut tangent = Tangent { residual_sum: optimum.objective, columns: scaled.columns, optimum, work: 0.0 };
         tangent.work = tangent.work_in(program);
         Some(tangent)
     }
@@ -61,28 +55,28 @@ impl Tangent {
     /// Returns the motion along which the loads have the largest power: three velocities per block, each between −1 and
     /// 1.
     pub fn motion(&self) -> Vec<f64> {
-        self.y.iter().map(|v| -v).collect()
+        self.optimum.motion()
     }
 
     /// Returns the forces of least residual, corrected by the least change that removes the residual. Amounts that
     /// would become negative are set to 0, so a residual may remain.
     pub fn forces(&self, program: &Program) -> Amounts {
         let scaled = ScaledProgram::new(program);
-        scaled.forces(rebalanced(&scaled.loads, &scaled.columns, self.amounts.clone()))
+        scaled.forces(rebalanced(&scaled.loads, &scaled.columns, self.optimum.amounts.clone()))
     }
 
     /// Returns the work of the contact forces along the velocities y. Each contact has full friction, and has the
     /// normal, points and friction coefficient that it has in `program`.
     fn work_in(&self, program: &Program) -> f64 {
         let mut sum = 0.0;
-        for (column, amount) in self.columns.iter().zip(&self.amounts) {
+        for (column, amount) in self.columns.iter().zip(&self.optimum.amounts) {
             let Force::Ray { contact, point, normal, friction } = column.force else {
                 continue;
             };
             let contact = &program.contacts[contact];
             // Compute the velocity of the contact point on one body, relative to the contact point on the other body.
             let speed = |(block, arms): (usize, [Vector; 2])| {
-                let [u, v, spin] = [0, 1, 2].map(|row| self.y[3 * block + row]);
+                let [u, v, spin] = [0, 1, 2].map(|row| self.optimum.y[3 * block + row]);
                 Vector::new(u, v) + quarter_turn(arms[point]) * spin
             };
             let relative_velocity = speed(contact.on) - contact.from.map_or(Vector::zeros(), speed);

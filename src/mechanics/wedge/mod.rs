@@ -18,7 +18,7 @@ mod rest;
 mod spring;
 
 use crate::mechanics::program::{Column, Force, Program, columns};
-use crate::mechanics::solve::{Conditioning, Effort, Status, dual, is_late};
+use crate::mechanics::solve::{Conditioning, Effort, Status, is_late, least_cost};
 use branch_and_bound::{SearchOutcome, search};
 use spring::Springs;
 
@@ -168,7 +168,7 @@ fn self_stress(program: &Program, motion: Vec<f64>, ruled_out: Vec<RuledOut>) ->
         _ => 0.0,
     };
     let mut effort = Effort::default();
-    let pressed = dual(&program.loads, &columns(program), Conditioning::Full, &mut effort, cost);
+    let pressed = least_cost(&program.loads, &columns(program), Conditioning::Full, &mut effort, cost);
     SelfStress {
         motion,
         contacts,

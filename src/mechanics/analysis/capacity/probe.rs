@@ -11,7 +11,7 @@ use crate::mechanics::analysis::margin::{LimitChange, Setting};
 use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::{Forces, Motion, Proof, check_forces, net_power};
 use crate::mechanics::scene::{Limits, RobotId};
-use crate::mechanics::solve::{Amounts, ForcePolygon, Support, force_polygon, support};
+use crate::mechanics::solve::{Amounts, ForcePolygon, Limit, force_polygon, support};
 use crate::mechanics::statics::assembly::{Assembly, AssemblyGrip, load_about};
 
 /// A motion is proved under a force that lies this far beyond the limit, relative to the size of the force. The power
@@ -211,8 +211,9 @@ impl Probe {
 
     fn farthest_in(&self, program: &Program, direction: Vector, is_retry: bool) -> Farthest {
         let grip = self.given.grips.len();
-        match support(program, grip, direction, is_retry) {
-            Support::At { forces, motion } => {
+        let found = support(program, grip, direction, is_retry);
+        match (found.limit, found.forces, found.motion) {
+            (Limit::At(_), Some(forces), Some(motion)) => {
                 let near = forces.grip[grip];
                 let near = Vector::new(near[0], near[1]) * self.program.scale.force;
                 if self.proves {
@@ -227,8 +228,8 @@ impl Probe {
                     Farthest::At { carried: Some(self.unproved(near)), half_plane: None }
                 }
             }
-            Support::Unbounded => Farthest::Unbounded,
-            Support::Infeasible | Support::Unsolved => Farthest::None,
+            (Limit::Unbounded, ..) => Farthest::Unbounded,
+            _ => Farthest::None,
         }
     }
 

@@ -17,10 +17,10 @@ impl Component<'_> {
         }
         match outcome.verdict {
             Verdict::Stable if !outcome.least_force => self.with_least_force(program, outcome),
-            Verdict::Unstable if !outcome.only_some_fall => self.with_failures(program, outcome),
-            // The outcome covers only some falling bodies. If the other bodies may move too, less adhesion may be
-            // enough for the whole component.
-            Verdict::Unstable if !program.has_many_blocks() => self.with_failures_of_the_whole(program, outcome),
+            // If the outcome covers only some falling bodies, less adhesion may be enough for the whole component.
+            Verdict::Unstable if !outcome.only_some_fall || !program.has_many_blocks() => {
+                self.with_failures(program, outcome)
+            }
             _ => outcome,
         }
     }
@@ -87,65 +87,53 @@ impl Component<'_> {
         outcome
     }
 
-    /// Replaces the adhesion of the falling bodies by the least adhesion of the whole component, if it can be proved:
-    /// the adhesion and the admissible forces must balance every body.
-    fn with_failures_of_the_whole(&self, program: &Program, mut outcome: Outcome) -> Outcome {
-        for settings in &self.settings {
-            if is_late() {
-                break;
-            }
-            let least_adhesion = least_adhesion_in(program, *settings);
-            outcome.effort = outcome.effort.plus(least_adhesion.effort);
-            if least_adhesion.balanced == Some(true)
-                && self.prove_with_adhesion(least_adhesion.forces.clone(), &least_adhesion.adhesion).1
-            {
-                outcome.amounts = least_adhesion.forces;
-                outcome.adhesion = Some(least_adhesion.adhesion);
-                break;
-            }
-        }
-        outcome
-    }
-
     /// Adds the least adhesion and its mechanism to an outcome. Tries the solver settings in order. If the program
-    /// finds forces that balance every body without adhesion, the verdict becomes stable.
+    /// finds forces that balance every body without adhesion, the verdict becomes stable. If the adhesion of falling
+    /// bodies is known, it is replaced only if the adhesion of the whole component balances every body.
     fn with_failures(&self, program: &Program, mut outcome: Outcome) -> Outcome {
-        let mut solved_before = outcome.least_adhesion.take().filter(|s| s.balanced.is_some());
+        let mut solved_before = outcome.least_adhesion.take().filter(|found| found.motion.is_some());
+        let is_large = program.has_many_blocks();
+        // A large component keeps the motion that proved the verdict: correcting another motion takes a third of the
+        // total time.
+        let keeps_motion = outcome.only_some_fall || (is_large && !outcome.mechanism.is_empty());
         for settings in &self.settings {
-            let least_adhesion = solved_before.take().unwrap_or_else(|| {
-                let least_adhesion = least_adhesion_in(program, *settings);
-                outcome.effort = outcome.effort.plus(least_adhesion.effort);
-                least_adhesion
+            let found = solved_before.take().unwrap_or_else(|| {
+                let found = least_adhesion_in(program, *settings);
+                outcome.effort = outcome.effort.plus(found.effort);
+                found
             });
-            if least_adhesion.balanced == Some(true) {
-                let proved = self.prove_forces(least_adhesion.forces.clone());
+            if let Some(forces) = &found.forces {
+                let proved = self.prove_forces(forces.clone());
                 if self.accepts(&proved.proof) {
                     // These forces balance every body without adhesion. They decide, even if a motion is proved, too.
                     outcome.stand(proved);
                     return outcome;
                 }
             }
-            // A large component keeps the motion that proved the verdict: correcting another motion takes a third of
-            // the total time.
-            let keeps_motion = program.has_many_blocks() && !outcome.mechanism.is_empty();
-            let motion = least_adhesion.motion.filter(|_| !keeps_motion);
+            let unsupported = found.forces.is_none() && found.motion.is_some();
+            let motion = found.motion.filter(|_| !keeps_motion);
             let proved_motion = motion.and_then(|y| self.prove_motion(program, &y, &mut outcome.effort));
             // If the program gives the forces a cost, its motion violates contacts slightly. The earlier motion is then
             // kept.
-            if let (Some((mechanism, proof)), false) = (proved_motion, least_adhesion.priced) {
+            if let (Some((mechanism, proof)), false) = (proved_motion, found.priced) {
                 (outcome.mechanism, outcome.proof) = (mechanism, proof);
             }
+            let Some((forces, adhesion)) = found.forces.zip(found.adhesion) else {
+                // The least adhesion is unknown, or no adhesion holds the component.
+                if outcome.adhesion.is_none() {
+                    (outcome.amounts, outcome.unsupported) = (Amounts::zero(program), unsupported);
+                }
+                if unsupported {
+                    return outcome;
+                }
+                continue;
+            };
             // Use this result if it balances every body, or if no earlier result gave an adhesion.
-            let has_adhesion = least_adhesion.balanced == Some(true);
-            let holds =
-                has_adhesion && self.prove_with_adhesion(least_adhesion.forces.clone(), &least_adhesion.adhesion).1;
+            let holds = self.prove_with_adhesion(forces.clone(), &adhesion).1;
             if holds || outcome.adhesion.is_none() {
-                outcome.unsupported = least_adhesion.balanced == Some(false);
-                outcome.amounts = least_adhesion.forces;
-                outcome.adhesion = has_adhesion.then_some(least_adhesion.adhesion);
+                (outcome.amounts, outcome.adhesion) = (forces, Some(adhesion));
             }
-            let is_large = program.has_many_blocks();
-            if holds || least_adhesion.balanced == Some(false) || (has_adhesion && is_large) {
+            if holds || is_large {
                 return outcome;
             }
         }

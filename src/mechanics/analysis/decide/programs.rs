@@ -41,12 +41,13 @@ impl Component<'_> {
             outcome.effort = outcome.effort.plus(attempt.effort);
             outcome.least_force_failed |=
                 strategy.is_full_least_force() && attempt.forces.is_none() && attempt.motion.is_none();
-            if self.decide_by_forces(program, &attempt, &mut progress.outcome) {
+            // The closed form is used only if its forces need adhesion.
+            if strategy != Strategy::Determinate && self.decide_by_forces(program, &attempt, &mut progress.outcome) {
                 return progress.outcome;
             }
             let is_decided = self.decide_by_motion(program, strategy, &attempt, &mut progress);
-            if let Some(found) = &attempt.least_adhesion {
-                progress.outcome.least_adhesion = Some(found.clone());
+            if strategy.finds_adhesion() && attempt.motion.is_some() {
+                progress.outcome.least_adhesion = Some(attempt.clone());
             }
             if is_decided {
                 return progress.outcome;
@@ -117,11 +118,7 @@ impl Component<'_> {
     /// because no program has excluded a balance.
     fn without_proof(&self, program: &Program, progress: Progress) -> Outcome {
         let attempt = progress.last.as_ref();
-        // If no forces balance, these are the forces that balance together with adhesion.
-        let amounts = attempt.and_then(|attempt| {
-            let with_adhesion = attempt.least_adhesion.as_ref().map(|found| &found.forces);
-            attempt.forces.as_ref().or(with_adhesion).cloned()
-        });
+        let amounts = attempt.and_then(|attempt| attempt.forces.clone());
         let proved = self.prove_forces(amounts.unwrap_or_else(|| Amounts::zero(program)));
         let weak = progress.weak_motion.map(|(_, proof)| proof);
         let motion = attempt.and_then(|attempt| attempt.motion.as_ref());

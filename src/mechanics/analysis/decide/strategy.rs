@@ -147,14 +147,12 @@ impl Strategy {
     /// yet proved.
     pub fn attempt(&self, program: &Program) -> Balance {
         match self {
-            Strategy::Determinate => collapse(program).map_or_else(Balance::default, |(motion, least_adhesion)| {
-                Balance { motion: Some(motion), least_adhesion: Some(least_adhesion), ..Balance::default() }
-            }),
+            Strategy::Determinate => collapse(program).unwrap_or_default(),
             Strategy::FirstLook(settings) => balance_at_first_look(program, *settings),
             Strategy::Force(settings) => balance_in(program, *settings),
             Strategy::AnyBalance => any_balance(program),
             Strategy::Residual => least_residual(program),
-            Strategy::Adhesion(settings) => least_adhesion_in(program, *settings).into(),
+            Strategy::Adhesion(settings) => least_adhesion_in(program, *settings),
         }
     }
 
@@ -171,11 +169,14 @@ impl Strategy {
             Strategy::Determinate | Strategy::FirstLook(_) | Strategy::Force(_) => false,
             Strategy::AnyBalance | Strategy::Residual => attempt.forces.is_some(),
             // If the solver ended without a result, the attempt shows nothing.
-            Strategy::Adhesion(_) => {
-                let found = attempt.least_adhesion.as_ref();
-                found.is_some_and(|found| found.balanced.is_some())
-            }
+            Strategy::Adhesion(_) => attempt.motion.is_some(),
         }
+    }
+
+    /// True if the attempt gives the least adhesion and its motion. The motion of the closed form has fewer moving
+    /// joints.
+    pub fn finds_adhesion(&self) -> bool {
+        matches!(self, Strategy::Adhesion(_))
     }
 
     pub fn method(&self) -> Method {

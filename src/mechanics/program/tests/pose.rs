@@ -82,7 +82,7 @@ fn only_a_pair_of_opposite_unlimited_forces_becomes_one_equality() {
     program.grips.push(other);
     let all = columns(&program);
     assert_eq!(all.len(), 3 + 6 + 6);
-    let (conic, row_of) = kinematic_dual(&program.loads, &all, |_| 0.0);
+    let (conic, row_of) = kinematic_form(&program.loads, &all, &Aim::Least(&|_: &Column| 0.0));
     // The pairs are the vertical force of the first robot and all three components of the second.
     assert_eq!(conic.equalities, 4);
     let pairs = [(5, 6), (9, 10), (11, 12), (13, 14)];
@@ -92,10 +92,10 @@ fn only_a_pair_of_opposite_unlimited_forces_becomes_one_equality() {
     let others = [0, 1, 2, 3, 4, 7, 8].map(|k| row_of[k]);
     assert_eq!(others, [4, 5, 6, 7, 8, 9, 10]);
     // The last column has no partner after it. A pair in the reverse order does not count as a pair.
-    let (conic, _) = kinematic_dual(&program.loads, &all[..14], |_| 0.0);
+    let (conic, _) = kinematic_form(&program.loads, &all[..14], &Aim::Least(&|_: &Column| 0.0));
     assert_eq!(conic.equalities, 3);
     let turned = [all[12], all[11]];
-    let (conic, _) = kinematic_dual(&program.loads, &turned, |_| 0.0);
+    let (conic, _) = kinematic_form(&program.loads, &turned, &Aim::Least(&|_: &Column| 0.0));
     assert_eq!(conic.equalities, 0);
 }
 

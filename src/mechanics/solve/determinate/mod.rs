@@ -15,7 +15,7 @@
 //! [`Joint`]: one contact of a structure in which the contacts form a tree, so that only one path leads from each body
 //! to the ground. The function [`joints`] lists all joints from the ground outwards.
 
-use super::amounts::{Amounts, Effort, LeastAdhesion};
+use super::amounts::{Amounts, Balance};
 use crate::geometry::{Vector, cross, quarter_turn};
 use crate::mechanics::program::{ContactTerm, Program};
 
@@ -62,7 +62,7 @@ fn needed_forces(program: &Program, joints: &[Joint]) -> Vec<ContactForces> {
 
 /// Computes the least adhesion, and the motion that proves that it is the least. `None` if the contacts do not form a
 /// tree (see [`joints`]), if a friction coefficient exceeds 1, or if a result is not finite.
-pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
+pub(super) fn least_adhesion(program: &Program) -> Option<Balance> {
     let joints = joints(program)?;
     SplitForces::new(program, &joints)?.into_least_adhesion(program, &joints)
 }
@@ -72,7 +72,7 @@ pub(super) fn least_adhesion(program: &Program) -> Option<LeastAdhesion> {
 /// On each path from the ground, only the first failing contact opens or slides; the blocks beyond it move as one body.
 /// `None` if the contacts do not form a tree (see `joints`), if the structure stands, if a friction coefficient exceeds
 /// 1, or if a result is not finite.
-pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
+pub fn collapse(program: &Program) -> Option<Balance> {
     let joints = joints(program)?;
     let split = SplitForces::new(program, &joints)?;
     let mut moves = vec![false; program.blocks];
@@ -88,7 +88,7 @@ pub fn collapse(program: &Program) -> Option<(Vec<f64>, LeastAdhesion)> {
         return None;
     }
     let motion = motion(program, &joints, &speeds)?;
-    Some((motion, split.into_least_adhesion(program, &joints)?))
+    Some(Balance { motion: Some(motion), ..split.into_least_adhesion(program, &joints)? })
 }
 
 /// Computes the velocities of the bodies from the speeds at which the joints open and slide. `None` if a velocity is
@@ -146,18 +146,16 @@ impl SplitForces {
     ///
     /// `None` if a friction coefficient exceeds 1, because the closed form is then not always the least adhesion. Also
     /// `None` if a velocity is not finite.
-    fn into_least_adhesion(self, program: &Program, joints: &[Joint]) -> Option<LeastAdhesion> {
+    fn into_least_adhesion(self, program: &Program, joints: &[Joint]) -> Option<Balance> {
         if program.contacts.iter().any(|contact| contact.friction > 1.0) {
             return None;
         }
         let speeds: Vec<_> = joints.iter().map(|joint| self.speeds(joint)).collect();
-        Some(LeastAdhesion {
-            balanced: Some(true),
+        Some(Balance {
             motion: Some(motion(program, joints, &speeds)?),
-            forces: self.forces,
-            adhesion: self.adhesion,
-            priced: false,
-            effort: Effort::default(),
+            forces: Some(self.forces),
+            adhesion: Some(self.adhesion),
+            ..Balance::default()
         })
     }
 

@@ -309,7 +309,7 @@ fn least_squares_with_floors_meet_their_conditions_and_have_the_cost_of_clarabel
         assert!(floors > 20, "{floors} amounts at their floors");
         // Floors far below all amounts give the same result as floors at −100. With these, clarabel converges.
         problem.bound[unknowns..].iter_mut().for_each(|floor| *floor = floor.min(100.0));
-        let theirs = crate::mechanics::solve::by_clarabel(&problem, Conditioning::Full.into(), 100);
+        let theirs = crate::mechanics::solve::by_clarabel(&problem, Conditioning::Full.into());
         assert_eq!(theirs.status, Status::Solved);
         let cost = |x: &[f64]| 0.5 * product(x, &squares(x));
         let off = cost(&ours.x) - cost(&theirs.x);

@@ -6,7 +6,7 @@ use super::vallat::vallat_program;
 use drystone::analysis::{Accuracy, Analysis, Options, Proof, Verdict};
 use drystone::internals::program::{Column, Program, Scale, adhesion_columns, columns, force_primal};
 use drystone::internals::solve::{
-    Amounts, Choice, Conditioning, Effort, SolverSettings, Status, balance_in, dual, least_adhesion_in, solve,
+    Amounts, Choice, Conditioning, Effort, SolverSettings, Status, balance_in, least_adhesion_in, least_cost, solve,
 };
 
 /// An adhesion up to this fraction of the largest adhesion is a rounding error of the solver and not a failure.
@@ -207,13 +207,13 @@ fn kinematic(program: &Program, tolerance: f64) -> Outcome {
     let settings = settings(tolerance, Choice::Any);
     let mut effort = Effort::default();
     let admissible = columns(program);
-    let hard = dual(&program.loads, &admissible, settings, &mut effort, |c| c.cost);
+    let hard = least_cost(&program.loads, &admissible, settings, &mut effort, |c| c.cost);
     if hard.status == Status::Solved {
         return standing(program, &admissible, &hard.amounts, effort);
     }
     let mut all = admissible;
     all.extend(adhesion_columns(program));
-    let soft = dual(&program.loads, &all, settings, &mut effort, adhesion_cost);
+    let soft = least_cost(&program.loads, &all, settings, &mut effort, adhesion_cost);
     let adheres = || all.iter().zip(&soft.amounts).filter(|(c, _)| c.force.is_adhesion());
     let least: f64 = adheres().map(|(_, x)| *x).sum();
     let certain = hard.status == Status::Unbounded;
@@ -244,16 +244,13 @@ fn unique(program: &Program, tolerance: f64) -> Outcome {
     let soft = least_adhesion_in(program, settings);
     let effort = hard.effort.plus(soft.effort);
     let certain = hard.motion.is_some();
-    if soft.balanced == Some(true) {
-        let least = soft.adhesion.total();
+    if let (Some(forces), Some(adhesion)) = (&soft.forces, &soft.adhesion) {
+        let least = adhesion.total();
         if !certain && least <= min_counted_adhesion(tolerance) {
-            let off = soft.forces.unbalanced(program);
-            return Outcome::stands(&soft.forces, off, effort);
+            let off = forces.unbalanced(program);
+            return Outcome::stands(forces, off, effort);
         }
-        let parts = || {
-            let adhesion = &soft.adhesion;
-            adhesion.normal.iter().flatten().chain(&adhesion.friction).chain(adhesion.grip.iter().flatten())
-        };
+        let parts = || adhesion.normal.iter().flatten().chain(&adhesion.friction).chain(adhesion.grip.iter().flatten());
         let most = parts().fold(0.0, |m: f64, v| m.max(v.abs()));
         let points = parts().filter(|v| v.abs() > MIN_FAILURE_SHARE * most).count();
         return Outcome::falls(Some(least), points, effort);

@@ -16,7 +16,7 @@
 use super::double::Double;
 use super::skyline::Skyline;
 use drystone::internals::program::{Column, Force};
-use drystone::internals::solve::{Choice, Conditioning, Effort, SolverSettings, Status, dual};
+use drystone::internals::solve::{Choice, Conditioning, Effort, SolverSettings, Status, least_cost};
 
 /// A certified optimum.
 pub struct Optimum {
@@ -57,7 +57,7 @@ pub fn optimum(loads: &[f64], columns: &[Column], cost: impl Fn(&Column) -> f64 
     let sparse: Vec<Vec<(usize, Double)>> = columns.iter().map(entries).collect();
     for tolerance in GUESS_TOLERANCES {
         let settings = SolverSettings { tolerance, choice: Choice::Any, ..Conditioning::Full.into() };
-        let solved = dual(loads, columns, settings, &mut Effort::default(), cost);
+        let solved = least_cost(loads, columns, settings, &mut Effort::default(), cost);
         if solved.status != Status::Solved {
             continue;
         }

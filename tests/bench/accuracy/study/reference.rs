@@ -29,7 +29,7 @@ use super::optimum::{OPTIMALITY_TOL, Optimum, add, entries, optimum, power, prod
 use super::skyline::Skyline;
 use drystone::analysis::Verdict;
 use drystone::internals::program::{Column, Force, Program, adhesion_columns, columns, least_squares};
-use drystone::internals::solve::{Conditioning, Effort, Status, dual, solve};
+use drystone::internals::solve::{Conditioning, Effort, Status, least_cost, solve};
 
 /// Largest relative gap of a certificate whose value counts as known to twelve digits.
 const MAX_GAP: f64 = 1e-12;
@@ -100,7 +100,7 @@ impl Reference {
 /// True if the solver finds a motion along which the loads have power, and which not even adhesion resists.
 fn falls_despite_adhesion(loads: &[f64], all: &[Column]) -> bool {
     let adheres = |c: &Column| if c.force.is_adhesion() { 1.0 } else { 0.0 };
-    let solved = dual(loads, all, Conditioning::Full, &mut Effort::default(), adheres);
+    let solved = least_cost(loads, all, Conditioning::Full, &mut Effort::default(), adheres);
     let y: Vec<Double> = solved.y.iter().map(|v| Double::from(*v)).collect();
     let size = y.iter().fold(0.0, |m: f64, v| m.max(v.abs().near()));
     let violation = all.iter().map(|c| product(&entries(c), &y).near()).fold(0.0, f64::max);
