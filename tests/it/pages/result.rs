@@ -24,11 +24,24 @@ fn assert_claims(claims: Vec<Claim<'_>>) {
         assert!(page.contains(phrase), "the page does not contain: {phrase}");
         let result = result(file, options);
         let found = result.pointer(pointer);
-        let near = match (found.and_then(Value::as_f64), expected.as_ref().and_then(Value::as_f64)) {
-            (Some(a), Some(b)) => (a - b).abs() <= 1e-9 * b.abs().max(1.0),
-            _ => found == expected.as_ref(),
+        let near = match (found, &expected) {
+            (Some(found), Some(expected)) => is_near(found, expected),
+            (found, expected) => found == expected.as_ref(),
         };
         assert!(near, "{phrase}\n{file}\n{pointer}: {found:?}");
+    }
+}
+
+/// True if two values are equal, numbers up to 10⁻⁹.
+fn is_near(found: &Value, expected: &Value) -> bool {
+    match (found, expected) {
+        (Value::Array(found), Value::Array(expected)) => {
+            found.len() == expected.len() && found.iter().zip(expected).all(|(a, b)| is_near(a, b))
+        }
+        _ => match (found.as_f64(), expected.as_f64()) {
+            (Some(a), Some(b)) => (a - b).abs() <= 1e-9 * b.abs().max(1.0),
+            _ => found == expected,
+        },
     }
 }
 
