@@ -59,7 +59,7 @@ pub use rebalance_blocks::{rebalance_absolute, rebalance_relative};
 pub use repair_motion::repair_motion;
 pub use settings::{Choice, Conditioning, CrossoverTolerance, MAX_ITERATIONS, SolverSettings, TOLERANCE};
 pub(crate) use settings::{DeadlineGuard, deadline, is_late};
-pub use solver::{by_clarabel, solve, solve_with};
+pub use solver::{by_clarabel, solve, solve_forces, solve_with};
 pub use tangent::Tangent;
 
 use amounts::{largest, remainder};

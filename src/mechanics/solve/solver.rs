@@ -22,7 +22,7 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, S
 
 use super::answer::{Answer, Status, is_finite};
 use super::normal;
-use super::settings::{Conditioning, SolverSettings, StoppingCriteria, deadline, is_late};
+use super::settings::{Conditioning, MAX_ITERATIONS, SolverSettings, StoppingCriteria, deadline, is_late};
 use crate::clock::Instant;
 use crate::mechanics::program::QuadraticProgram;
 
@@ -59,6 +59,14 @@ pub fn solve_with(problem: &QuadraticProgram, settings: SolverSettings) -> Answe
         }
     }
     by_clarabel(problem, settings)
+}
+
+/// Solves the linear program of the forces of least cost by the normal equations, also for few blocks. `None` if these
+/// end without an optimum.
+pub fn solve_forces(problem: &QuadraticProgram, tolerance: f64) -> Option<Answer> {
+    let criteria = StoppingCriteria { tolerance, crossover: None, iterations: MAX_ITERATIONS, deadline: deadline() };
+    let answer = normal::solve_any_size(problem, criteria, normal::CHAIN_OPERATIONS)?;
+    (answer.status == Status::Solved).then_some(answer)
 }
 
 /// True if every number of a program is finite.

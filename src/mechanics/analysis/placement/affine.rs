@@ -12,12 +12,14 @@
 //! This is column generation (Dantzig and Wolfe 1960). Every round has its own proof, so a time limit only makes the
 //! tolerance smaller.
 
+use std::collections::BTreeMap;
+
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-use super::model::{Model, Row};
+use super::model::{Line, Model, Row};
 use crate::mechanics::program::QuadraticProgram;
-use crate::mechanics::solve::{Answer, Conditioning, DeadlineGuard, Status, deadline, is_late, solve};
+use crate::mechanics::solve::{Answer, Conditioning, DeadlineGuard, Status, deadline, is_late, solve, solve_forces};
 
 /// The finest accuracy of a linear program.
 const TOLERANCE: f64 = 1e-9;
@@ -41,6 +43,9 @@ const MAX_ROUNDS: usize = 60;
 /// A residual of the balance above this share of the heaviest load makes a proof void.
 const MAX_RESIDUAL: f64 = 1e-10;
 
+/// The least amount of a known reaction in a mean, so that a mean exists if all amounts are 0.
+const MIN_AMOUNT: f64 = 1e-30;
+
 /// Smaller coefficients of the master program are left out; they are rounding errors.
 const MIN_ENTRY: f64 = 1e-9;
 
@@ -48,8 +53,17 @@ const MIN_ENTRY: f64 = 1e-9;
 /// matter now could be of any size.
 const MIN_WEIGHT: f64 = 1e-7;
 
-/// Of the known forces of a body, only this many with the largest shares in the mean are kept.
-const MAX_KNOWN: usize = 3;
+/// Of the known forces of a body, only this many with the largest shares in the mean are kept. With three, some walls
+/// find the same forces again and again.
+const MAX_KNOWN: usize = 8;
+
+/// Known forces with a smaller share in the mean are dropped, if the master program is not solved more accurately than
+/// this. A body with one known reaction costs the master program nothing, and most bodies have only one. A larger share
+/// lets the search of some doorways go round in circles.
+const LEAST_SHARE: f64 = 1e-4;
+
+/// New forces are added for the bodies that make up this share of the improvement.
+const SHARE_OF_GAIN: f64 = 0.98;
 
 /// The accuracy of the programs for new forces, as a share of that of the master program, with its bounds.
 const NEW_ACCURACY: (f64, f64, f64) = (0.1, 1e-9, 1e-5);
@@ -85,7 +99,7 @@ pub(super) fn largest_tolerance(model: &Model) -> Robust {
         known.push(Reaction { body: *body, forces });
     }
     let mut found = Robust { proved: 0.0, motion: Vec::new(), row: None, is_cut: true };
-    let mut tolerance = 0.0;
+    let (mut tolerance, mut too_large) = (0.0, f64::INFINITY);
     // Tolerances of solvers are absolute, and the forces on the lightest body must be accurate too.
     let lightest = loose.iter().map(|body| model.moments[*body]).fold(1.0, f64::min);
     let mut accuracy = (FIRST_TOLERANCE * lightest).max(TOLERANCE);
@@ -94,7 +108,16 @@ pub(super) fn largest_tolerance(model: &Model) -> Robust {
             return found;
         }
         let rows = model.rows(tolerance);
-        let Some(master) = Master::solve(model, &rows, &known, accuracy) else { return found };
+        let Some(master) = Master::solve(model, &rows, &known, accuracy) else {
+            // Probably no forces balance the component with joints as short as this.
+            too_large = tolerance;
+            if too_large - found.proved <= GAP * too_large {
+                return found;
+            }
+            tolerance = found.proved + (too_large - found.proved) / 2.0;
+            accuracy = (0.1 * accuracy).max(TOLERANCE);
+            continue;
+        };
         let weights = &master.multipliers;
         if let Some(proved) = master.proved(model, &rows, &known)
             && proved.min(tolerance) >= found.proved
@@ -103,18 +126,25 @@ pub(super) fn largest_tolerance(model: &Model) -> Robust {
         }
         found.motion.clone_from(&master.motion);
         found.row = weights.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map(|(row, _)| row);
-        let new = cheapest_reactions(model, &rows, weights, &loose, accuracy);
+        let new = cheapest_reactions(model, tolerance, &rows, weights, &loose, accuracy);
         let least: f64 = new.iter().map(|(reaction, cost)| model.moments[reaction.body] * cost).sum();
         let next = master.next(model, &rows, &known, tolerance).clamp(0.0, end);
+        let next = if next < too_large { next } else { found.proved + (too_large - found.proved) / 2.0 };
         let is_still = (next - tolerance).abs() <= GAP * next.max(tolerance) || tolerance == 0.0 && next == 0.0;
-        if is_still && accuracy <= LAST_TOLERANCE * lightest.max(1e-4) && (least >= 1.0 - GAP || loose.is_empty()) {
+        let is_proved = found.proved >= (1.0 - 2.0 * GAP) * next;
+        if is_still
+            && is_proved
+            && accuracy <= LAST_TOLERANCE * lightest.max(1e-4)
+            && (least >= 1.0 - GAP || loose.is_empty())
+        {
             found.is_cut = false;
             return found;
         }
-        known = master.used(known);
-        known.extend(new.into_iter().map(|(reaction, _)| reaction));
+        known = master.renewed(model, &rows, known, new, LEAST_SHARE.min(accuracy));
         let gap = (1.0 - least).max((next - tolerance).abs() / next.max(tolerance));
-        accuracy = (TOLERANCE_OF_GAP * gap * lightest).clamp(TOLERANCE, accuracy);
+        // Where the tolerance stands still but is not proved, only more accurate multipliers find better forces.
+        let most = if is_still { 0.1 * accuracy } else { accuracy };
+        accuracy = (TOLERANCE_OF_GAP * gap * lightest).min(most).max(TOLERANCE);
         tolerance = next;
     }
     found
@@ -138,42 +168,53 @@ impl Master {
     fn solve(model: &Model, rows: &[Row], known: &[Reaction], accuracy: f64) -> Option<Master> {
         let (unknowns, balances) = (model.columns.len(), model.loads.len());
         let largest = unknowns;
-        let amount = |number: usize| unknowns + 1 + number;
         let mut body_row = vec![None; model.moments.len()];
         let mut bound = model.loads.clone();
         let mut matrix = Vec::new();
         for (unknown, column) in model.columns.iter().enumerate() {
             matrix.extend(column.iter().map(|(row, value)| (*row, unknown, *value)));
         }
-        // The amounts of a body add up to the tolerance.
-        for (number, reaction) in known.iter().enumerate() {
+        // The amounts of a body add up to the tolerance. A single reaction has this amount itself.
+        let mut counts = vec![0; model.moments.len()];
+        known.iter().for_each(|reaction| counts[reaction.body] += 1);
+        let mut places = vec![largest; known.len()];
+        let mut end = unknowns + 1;
+        for (place, reaction) in places.iter_mut().zip(known).filter(|(_, reaction)| counts[reaction.body] > 1) {
             let row = *body_row[reaction.body].get_or_insert_with(|| {
                 let row = bound.len();
                 matrix.push((row, largest, -1.0));
                 bound.push(0.0);
                 row
             });
-            matrix.push((row, amount(number), 1.0));
+            *place = end;
+            matrix.push((row, end, 1.0));
+            end += 1;
         }
         let equalities = bound.len();
         for row in rows {
             matrix.extend(row.entries.iter().map(|(unknown, value)| (bound.len(), *unknown, *value)));
-            for (number, reaction) in known.iter().enumerate() {
+            let mut single = 0.0;
+            for (place, reaction) in places.iter().zip(known) {
                 let share = row.times(&reaction.forces).abs() * model.moments[reaction.body];
-                if share > MIN_ENTRY {
-                    matrix.push((bound.len(), amount(number), share));
+                if *place == largest {
+                    single += share;
+                } else if share > MIN_ENTRY {
+                    matrix.push((bound.len(), *place, share));
                 }
+            }
+            if single > MIN_ENTRY {
+                matrix.push((bound.len(), largest, single));
             }
             bound.push(row.limit);
         }
-        for number in 0..known.len() {
-            matrix.push((bound.len(), amount(number), -1.0));
+        for place in largest + 1..end {
+            matrix.push((bound.len(), place, -1.0));
             bound.push(0.0);
         }
         // With no reactions at all, the tolerance needs a bound of its own.
         matrix.push((bound.len(), largest, 1.0));
         bound.push(1e3);
-        let mut linear = vec![0.0; amount(known.len())];
+        let mut linear = vec![0.0; end];
         linear[largest] = -1.0;
         let problem =
             QuadraticProgram { unknowns: linear.len(), quadratic: Vec::new(), linear, matrix, bound, equalities };
@@ -181,7 +222,7 @@ impl Master {
         Some(Master {
             forces: answer.x[..unknowns].to_vec(),
             largest: answer.x[largest],
-            amounts: answer.x[unknowns + 1..].to_vec(),
+            amounts: places.iter().map(|place| answer.x[*place]).collect(),
             multipliers: answer.z[equalities..equalities + rows.len()].iter().map(|z| z.max(0.0)).collect(),
             motion: answer.z[..balances].to_vec(),
         })
@@ -191,7 +232,7 @@ impl Master {
     fn means(&self, model: &Model, known: &[Reaction]) -> Vec<(usize, Vec<f64>)> {
         let mut sums: Vec<Option<(f64, Vec<f64>)>> = vec![None; model.moments.len()];
         for (reaction, amount) in known.iter().zip(&self.amounts) {
-            let amount = amount.max(0.0);
+            let amount = amount.max(MIN_AMOUNT);
             let (total, sum) = sums[reaction.body].get_or_insert_with(|| (0.0, vec![0.0; model.columns.len()]));
             *total += amount;
             sum.iter_mut().zip(&reaction.forces).for_each(|(s, force)| *s += amount * force);
@@ -215,7 +256,7 @@ impl Master {
             worst = worst.max(residual);
             sums.iter_mut().zip(rows).for_each(|(sum, row)| *sum += row.times(&mean).abs() * model.moments[body]);
         }
-        if worst.is_nan() || worst > MAX_RESIDUAL {
+        if worst > MAX_RESIDUAL || sums.iter().chain(&forces).any(|value| !value.is_finite()) {
             return None;
         }
         let mut proved = f64::INFINITY;
@@ -245,24 +286,55 @@ impl Master {
         tolerance + (self.largest - tolerance) / (1.0 - slope.min(0.0))
     }
 
-    /// Returns the known reactions of each body with the largest shares in its mean.
-    fn used(&self, known: Vec<Reaction>) -> Vec<Reaction> {
+    /// Returns the known reactions with the largest shares in the mean of each body, and the new ones that improve most.
+    fn renewed(
+        &self,
+        model: &Model,
+        rows: &[Row],
+        known: Vec<Reaction>,
+        new: Vec<(Reaction, f64)>,
+        least_share: f64,
+    ) -> Vec<Reaction> {
+        let mut costs = vec![0.0; model.moments.len()];
+        for (body, mean) in self.means(model, &known) {
+            costs[body] = cost(rows, &self.multipliers, &mean);
+        }
+        let gain = |(reaction, cost): &(Reaction, f64)| model.moments[reaction.body] * (costs[reaction.body] - cost);
+        let mut gains: Vec<(f64, Reaction)> = new.into_iter().map(|pair| (gain(&pair), pair.0)).collect();
+        gains.retain(|pair| pair.0 > 0.0);
+        gains.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut left = SHARE_OF_GAIN * gains.iter().map(|pair| pair.0).sum::<f64>();
         let mut pairs: Vec<(Reaction, f64)> = known.into_iter().zip(self.amounts.iter().copied()).collect();
         pairs.sort_by(|(a, x), (b, y)| a.body.cmp(&b.body).then(y.total_cmp(x)));
         let mut kept: Vec<Reaction> = Vec::with_capacity(pairs.len());
-        for (reaction, _) in pairs {
+        for (reaction, amount) in pairs {
             let others = kept.iter().rev().take_while(|other| other.body == reaction.body).count();
-            if others < MAX_KNOWN {
+            if others == 0 || others < MAX_KNOWN && amount > least_share * self.largest {
                 kept.push(reaction);
             }
+        }
+        for (gain, reaction) in gains {
+            if left > 0.0 {
+                kept.push(reaction);
+            }
+            left -= gain;
         }
         kept
     }
 }
 
+/// Returns Σ weight |row · forces|.
+fn cost(rows: &[Row], weights: &[f64], forces: &[f64]) -> f64 {
+    rows.iter().zip(weights).map(|(row, weight)| weight * row.times(forces).abs()).sum()
+}
+
 /// Returns, for each body, the reaction with the least Σ λ |row · x|, and this sum. λ are the weights of the rows.
+///
+/// In forces ≥ 0 along both senses of the lines of the joints, this is one program with the same columns and costs for
+/// all bodies.
 fn cheapest_reactions(
     model: &Model,
+    tolerance: f64,
     rows: &[Row],
     weights: &[f64],
     bodies: &[usize],
@@ -271,46 +343,49 @@ fn cheapest_reactions(
     let until = deadline();
     let (share, least, most) = NEW_ACCURACY;
     let accuracy = (share * accuracy).clamp(least, most);
+    let unknowns = model.columns.len();
+    let heaviest = weights.iter().fold(0.0, |most: f64, weight| most.max(*weight));
+    let lines = model.lines(tolerance);
+    let (mut matrix, mut linear, mut along) = (Vec::new(), Vec::new(), vec![0.0; unknowns]);
+    let balances = model.loads.len();
+    for Line { entries, rows: own } in &lines {
+        entries.iter().for_each(|(unknown, value)| along[*unknown] = *value);
+        let weights: Vec<f64> = weights[own.clone()].iter().map(|weight| weight.max(MIN_WEIGHT * heaviest)).collect();
+        let cost = cost(&rows[own.clone()], &weights, &along);
+        entries.iter().for_each(|(unknown, _)| along[*unknown] = 0.0);
+        let mut column = BTreeMap::new();
+        for (unknown, value) in entries {
+            model.columns[*unknown].iter().for_each(|(row, entry)| *column.entry(*row).or_insert(0.0) += value * entry);
+        }
+        for sign in [1.0, -1.0] {
+            matrix.extend(column.iter().map(|(row, entry)| (*row, linear.len(), sign * entry)));
+            matrix.push((balances + linear.len(), linear.len(), -1.0));
+            linear.push(cost);
+        }
+    }
     let one = |body: &usize| {
         let _guard = DeadlineGuard::new(until);
-        cheapest_reaction(model, rows, weights, *body, accuracy)
+        if is_late() {
+            return None;
+        }
+        let moment = model.unit_moment(*body);
+        let bound = [&moment[..], &vec![0.0; linear.len()]].concat();
+        let (linear, matrix) = (linear.clone(), matrix.clone());
+        let unknowns = linear.len();
+        let problem = QuadraticProgram { unknowns, quadratic: Vec::new(), linear, matrix, bound, equalities: balances };
+        let answer = solve_forces(&problem, accuracy).or_else(|| solved(&problem, accuracy))?;
+        let mut forces = vec![0.0; model.columns.len()];
+        for (line, amounts) in lines.iter().zip(answer.x.chunks_exact(2)) {
+            line.entries.iter().for_each(|(unknown, value)| forces[*unknown] += value * (amounts[0] - amounts[1]));
+        }
+        let (forces, residual) = model.balanced(forces, &moment);
+        let cost = cost(rows, weights, &forces);
+        (residual <= MAX_RESIDUAL).then_some((Reaction { body: *body, forces }, cost))
     };
     #[cfg(feature = "parallel")]
     return bodies.par_iter().filter_map(one).collect();
     #[cfg(not(feature = "parallel"))]
     return bodies.iter().filter_map(one).collect();
-}
-
-fn cheapest_reaction(
-    model: &Model,
-    rows: &[Row],
-    weights: &[f64],
-    body: usize,
-    accuracy: f64,
-) -> Option<(Reaction, f64)> {
-    let unknowns = model.columns.len();
-    let most = weights.iter().fold(0.0, |most: f64, weight| most.max(*weight));
-    let mut matrix = Vec::new();
-    for (unknown, column) in model.columns.iter().enumerate() {
-        matrix.extend(column.iter().map(|(row, value)| (*row, unknown, *value)));
-    }
-    let mut bound = model.unit_moment(body);
-    let equalities = bound.len();
-    let mut linear = vec![0.0; unknowns];
-    for (row, weight) in rows.iter().zip(weights) {
-        let size = linear.len();
-        linear.push(weight.max(MIN_WEIGHT * most));
-        for sign in [1.0, -1.0] {
-            matrix.extend(row.entries.iter().map(|(unknown, value)| (bound.len(), *unknown, sign * value)));
-            matrix.push((bound.len(), size, -1.0));
-            bound.push(0.0);
-        }
-    }
-    let problem = QuadraticProgram { unknowns: linear.len(), quadratic: Vec::new(), linear, matrix, bound, equalities };
-    let answer = solved(&problem, accuracy)?;
-    let (forces, residual) = model.balanced(answer.x[..unknowns].to_vec(), &model.unit_moment(body));
-    let cost = rows.iter().zip(weights).map(|(row, weight)| weight * row.times(&forces).abs()).sum();
-    (residual <= MAX_RESIDUAL).then_some((Reaction { body, forces }, cost))
 }
 
 /// Solves a linear program; `None` if the solver ends without an optimum.

@@ -5,6 +5,8 @@
 //! N₁ ≥ δ (N₁ + N₂), N₂ ≥ δ (N₁ + N₂) and |T| ≤ μ (N₁ + N₂), where δ is the error divided by the length of the joint.
 //! Each condition is one [`Row`]: row · x ≤ limit.
 
+use std::ops::Range;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::geometry::{Vector, cross, quarter_turn};
@@ -38,6 +40,13 @@ impl Row {
     pub fn growth(&self, x: &[f64]) -> f64 {
         self.growth.map_or(0.0, |(first, rate)| rate * (x[first] + x[first + 1]))
     }
+}
+
+/// A direction of the forces of a joint or grip.
+pub(super) struct Line {
+    pub entries: Vec<(usize, f64)>,
+    /// The rows of the joint or grip.
+    pub rows: Range<usize>,
 }
 
 /// A joint: its first unknown, the number of its unknowns (2 without friction, else 3), and what its rows need.
@@ -147,6 +156,39 @@ impl Model {
             }
         }
         rows
+    }
+
+    /// Returns the lines along which two rows of a joint, or the row of a grip, are 0. Σ weight |row · x| is linear between
+    /// such lines, so that every x is a sum of forces along them at no higher a sum.
+    pub fn lines(&self, tolerance: f64) -> Vec<Line> {
+        let mut lines = Vec::new();
+        let mut row = 0;
+        for Joint { first, friction, rate } in &self.joints {
+            let (share, first) = (rate * tolerance, *first);
+            let rows = row..row + if *friction > 0.0 { 4 } else { 2 };
+            row = rows.end;
+            let mut add = |entries: Vec<(usize, f64)>| lines.push(Line { entries, rows: rows.clone() });
+            for (a, b) in [(share, 1.0 - share), (1.0 - share, share)] {
+                let pressure = vec![(first, a), (first + 1, b)];
+                if *friction > 0.0 {
+                    for side in [1.0, -1.0] {
+                        add([&pressure[..], &[(first + 2, side * friction)]].concat());
+                    }
+                } else {
+                    add(pressure);
+                }
+            }
+            if *friction > 0.0 {
+                add(vec![(first, 1.0), (first + 1, -1.0)]);
+                add(vec![(first + 2, 1.0)]);
+            }
+        }
+        for (unknown, limit) in &self.grips {
+            let rows = row..row + if limit.is_finite() { 2 } else { 0 };
+            row = rows.end;
+            lines.push(Line { entries: vec![(*unknown, 1.0)], rows });
+        }
+        lines
     }
 
     /// Returns the contact to which each row belongs; `None` for the rows of grips.

@@ -57,7 +57,7 @@ const MIN_BLOCKS: usize = 60;
 /// If the interior-point method ends without a result for a chain, clarabel solves the program. Chains take little time
 /// in either solver. Long chains lose digits in the normal equations: for an arch of 10 000 stones a residual of 10⁻⁶
 /// of the loads remains.
-const CHAIN_OPERATIONS: f64 = 1e3;
+pub(super) const CHAIN_OPERATIONS: f64 = 1e3;
 
 /// Programs with a column of more entries than this are refused: such a column couples many blocks and fills the
 /// factor.
@@ -87,7 +87,11 @@ pub(super) fn is_least_squares(problem: &QuadraticProgram) -> bool {
 
 /// Like [`solve`], but also for few blocks. The structure counts as a chain if its factorization needs fewer than
 /// `chain_operations` operations for each unknown.
-fn solve_any_size(problem: &QuadraticProgram, criteria: StoppingCriteria, chain_operations: f64) -> Option<Answer> {
+pub(super) fn solve_any_size(
+    problem: &QuadraticProgram,
+    criteria: StoppingCriteria,
+    chain_operations: f64,
+) -> Option<Answer> {
     let form = match ProblemKind::new(problem) {
         Some(ProblemKind::Linear(form)) => form,
         Some(ProblemKind::LeastNorm) => {
