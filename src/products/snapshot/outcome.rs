@@ -144,7 +144,7 @@ impl Snapshot {
             self.findings.iter().partition(|finding| finding.state == State::Missing);
         if !new.is_empty() {
             let files: Vec<String> = new.iter().map(|finding| shown(&finding.file)).collect();
-            lines.push(format!("  {}: {}", State::Missing.name(), files.join(", ")));
+            lines.push(format!("  {}: {}: no reference exists yet", State::Missing.name(), files.join(", ")));
         }
         // What changes in the facts explains what changes in the drawing, so of the second only an impression is given.
         let mut most = MAX_LISTED_CHANGES;

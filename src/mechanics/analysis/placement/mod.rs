@@ -14,7 +14,7 @@ mod pattern;
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-use self::affine::largest_tolerance;
+use self::affine::{GAP, largest_tolerance};
 use self::model::Model;
 use self::pattern::Errors;
 use crate::geometry::{Vector, quarter_turn};
@@ -143,10 +143,10 @@ fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
     };
     let robust = largest_tolerance(&model);
     found.proved = robust.proved * model.metres;
-    if robust.is_cut {
-        found.limited_by = if is_late() { PlacementLimit::TimeLimit } else { PlacementLimit::Search };
-    } else if robust.proved >= model.end_of_joints() * (1.0 - 1e-5) {
+    if robust.proved >= model.end_of_joints() * (1.0 - GAP) {
         found.limited_by = PlacementLimit::JointLength;
+    } else if robust.is_cut {
+        found.limited_by = if is_late() { PlacementLimit::TimeLimit } else { PlacementLimit::Search };
     }
     found.joint =
         robust.row.and_then(|row| model.contact_of_row(row)).map(|contact| component.contacts[contact].interface);
