@@ -128,6 +128,14 @@ fn a_plank_needs_three_tenths_of_its_counterweight() {
     assert_eq!(margins.load_factor, Margin::Unbounded);
 }
 
+/// The program of the load nearest to the present one finds the interval; steps outward from mechanisms alone do not.
+#[test]
+fn a_wall_stands_between_two_horizontal_loads_far_from_the_present_one() {
+    let (file, margins) = known("horizontal-load-nearest");
+    let exact = exact_interval(&file, Growing::AcrossGravity).expect("it stands at some load");
+    near(ends(&margins.intervals.horizontal_load), exact);
+}
+
 #[test]
 fn an_arch_that_falls_as_it_is_has_no_margin_to_the_side() {
     let (_, margins) = known("archmech");

@@ -310,7 +310,7 @@ fn stands_exactly(moved: &Scene, inward: f64) -> bool {
 
 /// Walls, stacks, lattices and arches with robots and loads, by an exact program that shares no code with the search: all
 /// patterns within the proved tolerance stand, and the pattern of `falls_at` falls. `DRYSTONE_PLACEMENTS` sets the number
-/// of scenes, and `DRYSTONE_PLACEMENT_PATTERNS` that of random patterns for each.
+/// of scenes, and `DRYSTONE_PLACEMENT_PATTERNS` sets the number of random patterns for each scene.
 #[test]
 fn exact_programs_confirm_tolerances_of_random_scenes() {
     let count = number_of("DRYSTONE_PLACEMENTS", 24);

@@ -70,7 +70,7 @@ fn a_block_on_a_floor_agrees_with_sums_by_hand() {
     compare(&reached(&cases, MarginKind::LoadFactor, 2.0), ChangeKind::Weight, 80.0 / 0.8 - 60.0);
 }
 
-/// True if a scene stands without a tilt, and with a tilt by this angle to either side.
+/// True if a scene stands as it is, and also when it is tilted by this angle to the left and to the right.
 fn stands(file: &Value, degrees: f64) -> bool {
     let verdict = |angle: f64| Analysis::new(scene(&tilted(file.clone(), angle))).verdict();
     [0.0, degrees, -degrees].into_iter().all(|angle| verdict(angle) == Verdict::Stable)

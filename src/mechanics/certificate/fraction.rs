@@ -24,7 +24,7 @@ impl<N: Number> Vector<N> {
         Vector { x: self.x.times(factor), y: self.y.times(factor) }
     }
 
-    /// Returns the point on the line to `other`, at the fraction `share` of the distance.
+    /// Returns the point that lies the fraction `share` of the way from this point to `other`.
     pub fn toward(&self, other: &Vector<N>, share: &N) -> Vector<N> {
         let along = other.minus(self).times(share);
         Vector { x: self.x.plus(&along.x), y: self.y.plus(&along.y) }

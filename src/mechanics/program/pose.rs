@@ -129,13 +129,14 @@ pub enum Aim<'a> {
     Residual,
 }
 
-/// Returns the kinematic form of a program of forces, and the row of each column. The
-/// second direction of a grip component without limit shares the row of the first and has the row `usize::MAX`.
+/// Returns the kinematic form of a program of forces, and the row of each column. The second direction of a grip component
+/// without limit shares the row of the first and has the row `usize::MAX`.
 ///
 /// Without costs, the dual is max loadsᵀy s.t. columnᵀy ≤ 0. Each aim adds rows at the end:
 ///
 /// - largest λ: directionᵀy ≥ power; λ is the multiplier of this row;
-/// - nearest λ: −power ≤ directionᵀy ≤ power; λ is the multiplier of the first of the two rows minus that of the second;
+/// - nearest λ: directionᵀy ≥ −power and directionᵀy ≤ power; λ is the multiplier of the first row minus that of the
+///   second;
 /// - least residual: −1 ≤ y ≤ 1. This dual always has an optimum. −y is the motion in which the loads have the largest
 ///   power.
 pub fn kinematic_form(loads: &[f64], columns: &[Column], aim: &Aim) -> (QuadraticProgram, Vec<usize>) {

@@ -16,8 +16,9 @@
 //! The velocities of a light body are not accurate until the loads of a level have the size of its load. Each level
 //! adds about six correct digits.
 //!
-//! [`precise_optimum`] refines the least adhesion if the loads differ by more powers of ten than a solver has correct
-//! digits. Even the adhesion of a stone of a gram on a block of a hundred tons then has correct digits.
+//! A solver has about ten correct digits. [`precise_optimum`] refines the least adhesion if the largest load is so much
+//! larger than the smallest that this is not enough. Even the adhesion of a stone of a gram on a block of a hundred tons
+//! then has correct digits.
 
 use super::optimum::solve_in_turn;
 use super::{

@@ -106,8 +106,8 @@ fn extreme_factor(program: &Program, direction: &[f64], factor: Factor, plain_fi
     }
 }
 
-/// Solves the program of an extreme load factor. In the result, the factor is that of the original loads and direction,
-/// and the amounts balance the scaled loads at this factor. `None` if the direction is zero.
+/// Solves the program of an extreme load factor. The factor in the result is that of the original loads, and the amounts
+/// are those of the scaled loads. `None` if the direction is zero.
 fn solve_along<'p>(
     program: &'p Program,
     direction: &[f64],

@@ -54,6 +54,7 @@ pub use limit::{
     ExtremeValue, Limit, LimitState, largest_factor, largest_factor_fast, least_grip_limit, limit_state,
     nearest_factor, support,
 };
+pub(crate) use optimum::solve_in_turn;
 pub use optimum::{Optimum, least_cost};
 pub use rebalance_blocks::{rebalance_absolute, rebalance_relative};
 pub use repair_motion::repair_motion;

@@ -168,7 +168,7 @@ pub(super) fn solve_static_form(
 
 /// Solves a program with one of the settings after the other, until the solver ends with a result. Adds the work to
 /// `effort`. This is the only place where a program is solved again.
-pub(super) fn solve_in_turn(
+pub(crate) fn solve_in_turn(
     problem: &QuadraticProgram,
     attempts: impl IntoIterator<Item = SolverSettings>,
     effort: &mut Effort,

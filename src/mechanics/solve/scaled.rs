@@ -17,7 +17,7 @@ use crate::mechanics::program::{Aim, Column, Force, Program, columns};
 /// A program whose loads are scaled to a largest load of 1.
 pub(super) struct ScaledProgram<'p> {
     program: &'p Program,
-    /// The largest load before scaling, or 1 if there are no loads.
+    /// The largest load of the program, by which all loads are divided; 1 if there are no loads.
     pub load: f64,
     /// The scaled loads.
     pub loads: Vec<f64>,

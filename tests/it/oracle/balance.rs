@@ -343,9 +343,17 @@ impl<'a> Balance<'a> {
     pub(super) fn weight(&self, block: usize) -> [RBig; 3] {
         let gravity = self.scene.gravity();
         let size = libm::hypot(gravity.x, gravity.y);
-        let down = if size > 0.0 { gravity / size } else { gravity };
         let weight = exact(self.scene.blocks()[block].weight);
-        [&weight * exact(down.x), &weight * exact(down.y), RBig::ZERO]
+        let parts = [exact(gravity.x), exact(gravity.y)];
+        let square = |v: &RBig| v * v;
+        // The direction is a fraction if the length is one.
+        let [x, y] = if size > 0.0 && square(&exact(size)) == square(&parts[0]) + square(&parts[1]) {
+            parts.map(|v| v / exact(size))
+        } else {
+            let down = if size > 0.0 { gravity / size } else { gravity };
+            [exact(down.x), exact(down.y)]
+        };
+        [&weight * x, &weight * y, RBig::ZERO]
     }
 
     /// Both ends of the interface, each moved inward by half of `kernel` times its length.

@@ -80,6 +80,10 @@ impl End {
     }
 }
 
+/// An end is found if a stable and an unstable value are at most this far apart, relative to the end. Ends of two
+/// components that differ by less are equal.
+pub(in crate::mechanics::analysis) const END_TOL: f64 = 1e-6;
+
 /// Ends that differ by at most this, relative to their size or a typical size of the parameter, differ only by the
 /// rounding of the solver.
 pub(super) const ROUNDING_TOL: f64 = 1e-9;

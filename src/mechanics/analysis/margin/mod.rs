@@ -6,7 +6,7 @@
 //! For each of these parameters, the values at which a frame stands form an [`Interval`]. A frame stands if all its
 //! components stand: its interval is the intersection of theirs.
 //!
-//! [`search`] finds an end from a prediction and confirms it by verdicts, and [`nearest`] finds the first value at which
+//! [`path`] says how a component changes with a parameter. [`search`] finds an end from a prediction and confirms it by verdicts, and [`nearest`] finds the first value at which
 //! a frame stands. If the forces depend linearly on a parameter, one linear program gives the prediction
 //! ([`parameter`]); this includes the limits of robots. For friction and kernel, Newton's method gives it
 //! ([`mod@threshold`]).
@@ -17,6 +17,7 @@ mod interval;
 mod kind;
 mod margins;
 mod trial;
+mod path;
 mod search;
 mod nearest;
 mod threshold;
@@ -32,13 +33,13 @@ use super::decide::Outcome;
 use super::frame::Key;
 use crate::mechanics::solve::{DeadlineGuard, deadline};
 use crate::mechanics::statics::assembly::Assembly;
+pub(super) use interval::END_TOL;
 pub use interval::Exclusion;
 pub use interval::{End, Interval, Intervals, RobotIntervals};
 pub use kind::{MarginKind, MarginKinds};
 pub use margins::{Margin, Margins, RobotMargins, Sides};
 pub(super) use parameter::largest_load_factor;
-pub(super) use search::END_TOL;
-use search::Path;
+use path::Path;
 use trial::Trial;
 pub use trial::trials;
 pub(super) use trial::{LimitChange, Setting};

@@ -3,8 +3,9 @@
 //! A mechanism found at one value proves that the frame falls in a whole range of values. Each such range enlarges the
 //! excluded range around the present value, until the frame stands at one end of it or all values are excluded.
 
-use super::interval::{Exclusion, Interval, fewest_arcs};
-use super::search::{CONFIRMATION_TOL, END_TOL, MAX_STEPS, MAX_VALUE, MIN_ARC, Path, Predictor, offsets};
+use super::interval::{END_TOL, Exclusion, Interval, fewest_arcs};
+use super::path::{MAX_VALUE, Path, Predictor};
+use super::search::{CONFIRMATION_TOL, MAX_STEPS, MIN_ARC, offsets};
 use super::trial::Trial;
 use crate::mechanics::analysis::Verdict;
 
@@ -39,7 +40,7 @@ impl Path<'_> {
             };
             self.exclude(&mut excluded, range);
             if self.predictor == Predictor::Arc {
-                // Enlarge the excluded range by a small step, in case the arc does not enlarge it.
+                // Even if the arc excludes nothing new, each step of the search excludes a little more.
                 if next < present {
                     excluded.low = excluded.low.min(at - MIN_ARC);
                 } else {
@@ -138,8 +139,8 @@ impl Path<'_> {
         }
     }
 
-    /// Returns the values at which the ends of the excluded range meet if all values are excluded, without the rounding of
-    /// the ends. Empty if they overlap by more, so that mechanisms exclude every value.
+    /// If all values are excluded, returns the value at which the excluded ranges only touch, and values within rounding of
+    /// it. Empty if the ranges overlap by more than rounding: mechanisms then exclude every value.
     fn meeting(&self, excluded: &Excluded) -> Vec<f64> {
         let first = excluded.ranges.iter().filter_map(|range| range.from).fold(f64::INFINITY, f64::min);
         let last = excluded.ranges.iter().filter_map(|range| range.to).fold(f64::NEG_INFINITY, f64::max);

@@ -19,7 +19,8 @@
 
 use super::interval::{End, Interval, Intervals, RobotIntervals};
 use super::kind::{MarginKind, MarginKinds};
-use super::search::{Bracket, MAX_VALUE, Path, Predictor};
+use super::path::{MAX_VALUE, Path, Predictor};
+use super::search::Bracket;
 use super::threshold::threshold;
 use super::trial::{LimitChange, Setting, Trial};
 use crate::mechanics::analysis::Verdict;

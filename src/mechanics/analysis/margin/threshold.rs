@@ -6,9 +6,10 @@
 //! Newton's method for a threshold: searches for the parameter value at which the least residual, the smallest sum
 //! of unbalanced forces, becomes 0. The search starts where the component falls.
 
-use super::interval::{End, Exclusion, Interval};
+use super::interval::{END_TOL, End, Exclusion, Interval};
 use super::kind::MarginKind;
-use super::search::{Beyond, Bracket, CONFIRMATION_TOL, END_TOL, Path};
+use super::path::Path;
+use super::search::{Beyond, Bracket, CONFIRMATION_TOL};
 use super::trial::{Setting, Trial};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::solve::Tangent;

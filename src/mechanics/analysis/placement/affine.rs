@@ -19,7 +19,9 @@ use rayon::prelude::*;
 
 use super::model::{Line, Model, Row};
 use crate::mechanics::program::QuadraticProgram;
-use crate::mechanics::solve::{Answer, Conditioning, DeadlineGuard, Status, deadline, is_late, solve, solve_forces};
+use crate::mechanics::solve::{
+    Answer, Conditioning, DeadlineGuard, Effort, SolverSettings, Status, deadline, is_late, solve_forces, solve_in_turn,
+};
 
 /// The finest accuracy of a linear program.
 const TOLERANCE: f64 = 1e-9;
@@ -394,9 +396,12 @@ fn cheapest_reactions(
 
 /// Solves a linear program; `None` if the solver ends without an optimum.
 fn solved(problem: &QuadraticProgram, accuracy: f64) -> Option<Answer> {
-    let attempts = [(1.0, Conditioning::Full), (1.0, Conditioning::Plain), (100.0, Conditioning::Full)];
-    attempts
-        .into_iter()
-        .map(|(factor, conditioning)| solve(problem, factor * accuracy, conditioning))
-        .find(|answer| answer.status == Status::Solved)
+    let with = |tolerance, conditioning: Conditioning| SolverSettings { tolerance, ..conditioning.into() };
+    let attempts = [
+        with(accuracy, Conditioning::Full),
+        with(accuracy, Conditioning::Plain),
+        with(100.0 * accuracy, Conditioning::Full),
+    ];
+    let answer = solve_in_turn(problem, attempts, &mut Effort::default());
+    (answer.status == Status::Solved).then_some(answer)
 }
