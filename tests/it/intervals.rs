@@ -130,10 +130,10 @@ fn a_plank_needs_three_tenths_of_its_counterweight() {
 
 /// The program of the load nearest to the present one finds the interval; steps outward from mechanisms alone do not.
 #[test]
-fn a_wall_stands_between_two_horizontal_loads_far_from_the_present_one() {
-    let (file, margins) = known("horizontal-load-nearest");
-    let exact = exact_interval(&file, Growing::AcrossGravity).expect("it stands at some load");
-    near(ends(&margins.intervals.horizontal_load), exact);
+fn a_wall_that_falls_stands_if_it_is_pushed_far_enough_to_the_left() {
+    // The exact program finds these values, in 20 s.
+    let (_, margins) = known("horizontal-load-nearest");
+    near(ends(&margins.intervals.horizontal_load), [f64::NEG_INFINITY, -0.376_600_190_575]);
 }
 
 #[test]
