@@ -62,6 +62,14 @@ const MAX_BASIC_SLACK: f64 = 0.5;
 const CROSSOVER: CrossoverTolerance =
     CrossoverTolerance { tolerance_factor: 1e-2, max_slack: 1.2 * MAX_BASIC_SLACK * SUM_TOL_MANY, early_factor: 3.0 };
 
+/// A motion of stage 1 in which a velocity reaches this, where each adhesion resists a velocity of 1, is resisted only by
+/// the rounding of lever arms: no adhesion prevents it. With kernel 1 such an arm is 10⁻¹⁶ instead of 0, and pulls of
+/// 10 MN would balance a load of 10⁻⁹ N. A kernel of 1 − 10⁻⁹ leads to velocities of 10⁹.
+const MIN_FREE_SPEED: f64 = 1e13;
+
+/// The largest number of motions that no adhesion prevents for which the loads are left out in turn.
+const MAX_FREE_MOTIONS: usize = 4;
+
 /// Margins of [`Optimum::active`], tried in turn: if a margin of 1 drops a needed column, a larger margin keeps it.
 const ACTIVE_MARGINS: [f64; 3] = [1.0, 1e3, 1e6];
 
@@ -97,11 +105,24 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Balanc
     let loads: Vec<f64> = program.loads.iter().map(|v| v / load).collect();
     let mut all = columns_in(program, load);
     all.extend(adhesion_columns(program));
-    let whole = Face::whole(&loads, all);
+    let mut whole = Face::whole(&loads, all);
     // Stage 1: least adhesion. If no adhesion balances the blocks, the kinematic form is unbounded along a motion.
-    let (first, priced) = first_stage(&whole, many, settings, &mut effort);
-    if first.status != Status::Solved {
-        let motion = (first.status == Status::Unbounded).then(|| first.motion());
+    let (mut first, mut priced) = first_stage(&whole, many, settings, &mut effort);
+    let mut free = None;
+    for _ in 0..MAX_FREE_MOTIONS {
+        if first.status != Status::Solved || largest(&first.y) < MIN_FREE_SPEED {
+            break;
+        }
+        // Leave out the part of the loads that drives this motion, so that the adhesion elsewhere is still found.
+        whole.loads = without_power(&whole.loads, &first.y);
+        free = free.or_else(|| Some(first.motion()));
+        (first, priced) = first_stage(&whole, many, settings, &mut effort);
+    }
+    let holds_nothing = free.is_some()
+        && (largest(&first.y) >= MIN_FREE_SPEED
+            || whole.adhesion_sum(&first.amounts) <= TOLERANCE * largest(&whole.loads));
+    if first.status != Status::Solved || holds_nothing {
+        let motion = free.or_else(|| (first.status == Status::Unbounded).then(|| first.motion()));
         return Balance { motion, priced, effort, ..Balance::default() };
     }
     // If loads or adhesion differ by many powers of ten, refine the optimum of stage 1 level by level, from the
@@ -110,7 +131,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Balanc
         Some((refined, force_size)) => (refined, Some(force_size)),
         None => (first, None),
     };
-    let motion = Some(first.motion());
+    let motion = free.or_else(|| Some(first.motion()));
     let mut face = LaterStages::new(&whole, &first, many, force_size, settings).face(&whole, &first, &mut effort);
     if settings.conditioning == Conditioning::Full && force_size.is_none() {
         face.amounts = refine_balance(&face.loads, &face.columns, face.amounts, &mut effort);
@@ -120,6 +141,15 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Balanc
     forces.multiply(load);
     adhesion.multiply(load);
     Balance { forces: Some(forces), adhesion: Some(adhesion), motion, priced, witness: None, effort }
+}
+
+/// Returns the loads without the part that does work along `y`.
+fn without_power(loads: &[f64], y: &[f64]) -> Vec<f64> {
+    // Scale the velocities to 1 first, so that their squares do not overflow.
+    let fastest = largest(y);
+    let power: f64 = loads.iter().zip(y).map(|(load, v)| load * v / fastest).sum();
+    let squares: f64 = y.iter().map(|v| (v / fastest).powi(2)).sum();
+    loads.iter().zip(y).map(|(load, v)| load - power / squares * v / fastest).collect()
 }
 
 /// Stage 1: computes the least Σ adhesion. Returns the solution of the last linear program, and true if admissible

@@ -288,6 +288,28 @@ fn a_light_stone_that_slides_off_a_heavy_one_is_listed() {
     assert!((light - 1.3125).abs() < 1e-6, "{light}");
 }
 
+/// With kernel 1 the joint under block 2 transmits no moment, and the load of 2·10⁻⁹ N has a moment about it. Lever arms
+/// of rounding once let pulls of 10.9 MN balance it. By hand: block 1 lacks 8 N, and nothing can hold block 2.
+#[test]
+fn no_pull_acts_on_a_lever_arm_of_rounding() {
+    let file = r#"{ "drystone": 1, "friction": 0.25, "kernel": 1, "ground": [{ "polygon": [[-50, -1], [50, -1], [50, 0], [-50, 0]] }],
+        "blocks": [{ "id": "0", "polygon": [[-2.5, 0], [-1, 0], [-1, 0.5], [-2.5, 0.5]], "weight": 5 },
+                   { "id": "1", "polygon": [[-1, 0], [-0.5, 0], [-0.5, 0.5], [-1, 0.5]], "weight": 2 },
+                   { "id": "2", "polygon": [[-2.375, 0.5], [-2.125, 0.5], [-2.125, 0.75], [-2.375, 0.75]], "weight": 5 },
+                   { "id": "3", "polygon": [[-1.625, 0.75], [-0.625, 0.75], [-0.625, 1.75], [-1.625, 1.75]], "weight": 3 },
+                   { "id": "4", "polygon": [[-0.625, 0.75], [0.875, 0.75], [0.875, 1.75], [-0.625, 1.75]], "weight": 5 },
+                   { "id": "5", "polygon": [[1, 0.75], [2.5, 0.75], [2.5, 1.75], [1, 1.75]], "weight": 3 },
+                   { "id": "6", "polygon": [[2.5, 0.75], [3, 0.75], [3, 1.75], [2.5, 1.75]], "weight": 8 }],
+        "loads": [{ "block": "2", "force": [-2e-9, 0] }] }"#;
+    let analysis = Analysis::new(&Scene::from_json(file).expect("a sound scene"));
+    assert!((analysis.frames[0].total_sticking - 8.0).abs() < 1e-6, "{}", analysis.frames[0].total_sticking);
+    // A block that nothing can hold: the result says so, and lists no force.
+    let last = include_str!("routes.ndjson").lines().last().expect("a scene");
+    let known: serde_json::Value = serde_json::from_str(last).expect("JSON");
+    let analysis = Analysis::new(&Scene::from_json(&known["scene"].to_string()).expect("a sound scene"));
+    assert_eq!((analysis.frames[0].total_sticking, analysis.frames[0].unsupported.len()), (0.0, 1));
+}
+
 /// The torque of a robot was once above its limit by a rounding error.
 #[test]
 fn reported_forces_never_exceed_their_limits() {

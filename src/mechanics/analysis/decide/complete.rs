@@ -119,9 +119,11 @@ impl Component<'_> {
                 (outcome.mechanism, outcome.proof) = (mechanism, proof);
             }
             let Some((forces, adhesion)) = found.forces.zip(found.adhesion) else {
-                // The least adhesion is unknown, or no adhesion holds the component.
-                if outcome.adhesion.is_none() {
+                // The least adhesion is unknown, or no adhesion holds the component. An adhesion of other settings, which
+                // did not balance every body, is then no result.
+                if outcome.adhesion.is_none() || (unsupported && !outcome.only_some_fall) {
                     (outcome.amounts, outcome.unsupported) = (Amounts::zero(program), unsupported);
+                    outcome.adhesion = None;
                 }
                 if unsupported {
                     return outcome;
