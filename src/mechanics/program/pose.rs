@@ -212,6 +212,9 @@ pub struct Correction<'a> {
     pub amounts: &'a [f64],
     /// The change of an amount per unit of its unknown.
     pub size: f64,
+    /// The largest change towards 0 or towards a limit, in units of `size`. It keeps bounds far beyond the changes out of
+    /// the problem: with a limit of 10⁸ times the residual the solver ends without a result.
+    pub largest: f64,
 }
 
 /// Returns the problem of balancing `loads` with the least sum of squared forces. Every amount must be at least 0 and
@@ -246,12 +249,13 @@ pub fn least_squares(loads: &[f64], columns: &[Column], correction: Option<Corre
     let mut bound = loads.to_vec();
     for (j, column) in columns.iter().enumerate() {
         matrix.extend(column.entries().map(|(row, value)| (row, j, value)));
-        let (floor, size) = correction.map_or((0.0, 1.0), |c| (c.amounts[j] / c.size, c.size));
+        let room = |amount: f64| correction.map_or(amount, |c| (amount / c.size).min(c.largest));
+        let amount = correction.map_or(0.0, |c| c.amounts[j]);
         matrix.push((bound.len(), j, -1.0));
-        bound.push(floor);
+        bound.push(room(amount));
         if column.limit.is_finite() {
             matrix.push((bound.len(), j, 1.0));
-            bound.push(column.limit / size - floor);
+            bound.push(room(column.limit - amount));
         }
     }
     QuadraticProgram {

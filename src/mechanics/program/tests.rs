@@ -237,7 +237,7 @@ fn bounds_keep_amounts_and_corrected_amounts_between_zero_and_their_limits() {
     let program = example();
     let columns = columns(&program);
     let amounts: Vec<f64> = (0..columns.len()).map(|k| 0.125 * k as f64).collect();
-    let correction = Correction { amounts: &amounts, size: 0.5 };
+    let correction = Correction { amounts: &amounts, size: 0.5, largest: f64::INFINITY };
     for correction in [None, Some(correction)] {
         let conic = least_squares(&program.loads, &columns, correction);
         assert_eq!((conic.unknowns, conic.equalities), (12, 3));

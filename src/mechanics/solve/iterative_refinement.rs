@@ -57,7 +57,7 @@ pub(super) fn refine_balance(
         }
         let scaled: Vec<f64> = rest.iter().map(|v| v / size).collect();
         // Solve for a correction that removes the residual. The residual is scaled to size 1.
-        let correction = Correction { amounts: &amounts, size };
+        let correction = Correction { amounts: &amounts, size, largest: f64::INFINITY };
         let problem = least_squares(&scaled, columns, Some(correction));
         let answer = solve_in_turn(&problem, [Conditioning::Full.into()], effort);
         if answer.status != Status::Solved {

@@ -281,8 +281,7 @@ fn correct_once(
         return None;
     }
     let scaled: Vec<f64> = residual.iter().map(|v| v / size).collect();
-    let bounded: Vec<f64> = weights.iter().map(|w| w.min(ratio * size)).collect();
-    let correction = Correction { amounts: &bounded, size };
+    let correction = Correction { amounts: &weights, size, largest: ratio };
     let conic = least_squares(&scaled, list, Some(correction));
     if !all_finite(&conic) {
         return None;
