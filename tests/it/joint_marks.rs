@@ -84,3 +84,29 @@ fn every_mark_lies_at_its_joint_and_names_its_bodies() {
     }
     assert!(marks > 1000, "{marks}");
 }
+
+/// A block on a slope, 35° steep, with the friction 0.3 and two loads.
+const SLOPE: &str = r#"{ "drystone": 1, "friction": 0.3, "ground": [{ "polygon": [[0, 0], [10, 0], [10, 7]] }],
+    "blocks": [{ "id": "a", "polygon": [[4, 2.8], [7, 4.9], [5.6, 6.9], [2.6, 4.8]], "mass": 500 }],
+    "loads": [{ "id": "crane", "block": "a", "force": [0, -900] }, { "block": "a", "force": [100, -800] }] }"#;
+
+#[test]
+fn a_slip_has_no_mark_where_the_missing_friction_is_drawn() {
+    let analysis = Analysis::new(drystone::Scene::from_json(SLOPE).expect("a scene"));
+    let drawing = figure::forces(&analysis, &Options::default().theme(Theme::plain()));
+    let count = |class| {
+        let mut found = 0;
+        visit(&drawing.items, None, class, &mut |_, _| found += 1);
+        found
+    };
+    assert_eq!((count("missing"), count("slip")), (1, 0));
+    let svg = drystone::output::svg::write(&drawing);
+    assert!(svg.contains("missing") && !svg.contains("slides"), "the legend names what is drawn");
+}
+
+#[test]
+fn figures_write_the_id_that_the_file_gives_a_load_beside_its_amount() {
+    let analysis = Analysis::new(drystone::Scene::from_json(SLOPE).expect("a scene"));
+    let svg = drystone::output::svg::write(&figure::forces(&analysis, &Options::default().theme(Theme::plain())));
+    assert!(svg.contains("crane: 900 N") && svg.contains(">806 N<"), "{svg}");
+}

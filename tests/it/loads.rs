@@ -221,7 +221,7 @@ fn each_step_has_the_scene_of_its_own_worst_case() {
         assert_eq!((loads.len(), loads[0].force.x), (1, load));
         let svg =
             output::svg::write(&figure::panels_of(&analysis, Kind::Forces, &figure::Options::default(), &[number])[0]);
-        let [own, other] = if number == 0 { ["2 kN", "10 kN"] } else { ["10 kN", "2 kN"] };
+        let [own, other] = if number == 0 { ["right: 2 kN", "left: 10 kN"] } else { ["left: 10 kN", "right: 2 kN"] };
         let words = svg.replace('\u{a0}', " ");
         assert!(words.contains(&format!(">{own}<")) && !words.contains(&format!(">{other}<")), "{number}: {svg}");
     }

@@ -22,12 +22,16 @@ struct Preview {
 
 impl Preview {
     fn start(options: &[&str]) -> Preview {
+        Preview::of(&["a.json", "b.json"], options)
+    }
+
+    fn of(scenes: &[&str], options: &[&str]) -> Preview {
         let folder = tempfile::tempdir().expect("a folder");
         for name in ["a.json", "b.json"] {
             fs::write(folder.path().join(name), lintel(&format!("The lintel of {name}"), 1.0)).expect("written");
         }
         let mut command = Command::new(env!("CARGO_BIN_EXE_drystone"));
-        command.args(["render", "a.json", "b.json", "--watch"]).args(options).args(["--serve", "0"]);
+        command.arg("render").args(scenes).arg("--watch").args(options).args(["--serve", "0"]);
         command.current_dir(folder.path()).stderr(Stdio::piped());
         let mut process = command.spawn().expect("starts");
         let mut lines = BufReader::new(process.stderr.take().expect("piped"));
@@ -125,6 +129,24 @@ fn the_preview_follows_each_save_and_keeps_the_last_good_picture() {
     let written = fs::read_to_string(preview.path("out/a.svg")).expect("written too");
     assert_eq!(preview.get("/picture?scene=0")["svg"], written);
     assert!(preview.get("/picture?scene=7")["problem"].as_str().expect("text").contains("no such scene"));
+}
+
+#[test]
+fn a_preview_of_a_folder_shows_files_that_are_new_and_no_longer_those_that_are_gone() {
+    let preview = Preview::of(&["."], &[]);
+    let names = |state: &Value| -> Vec<String> {
+        let name = |scene: &Value| scene[0].as_str().expect("a name").trim_start_matches("./").to_owned();
+        state["scenes"].as_array().expect("a list").iter().map(name).collect()
+    };
+    let after = |state: &Value| preview.get(&format!("/state?since={}", state["version"]));
+    let state = preview.get("/state?since=0");
+    assert_eq!(names(&state), ["a.json", "b.json"]);
+    fs::write(preview.path("c.json"), lintel("The third", 1.0)).expect("written");
+    let state = after(&state);
+    assert_eq!(names(&state), ["a.json", "b.json", "c.json"]);
+    assert!(preview.get("/picture?scene=2")["svg"].as_str().expect("text").contains("The third"));
+    fs::remove_file(preview.path("a.json")).expect("removed");
+    assert_eq!(names(&after(&state)), ["b.json", "c.json"]);
 }
 
 #[test]

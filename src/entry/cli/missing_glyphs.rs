@@ -40,7 +40,8 @@ fn words(scene: &Scene) -> Vec<&str> {
     let frames = scene.frames.iter().map(|f| f.title.as_str());
     let titles = [&scene.title, &scene.author, &scene.project, &scene.date];
     let titles = titles.into_iter().map(String::as_str);
-    titles.chain(frames).chain(blocks).chain(robots).collect()
+    let loads = scene.load_ids.iter().flatten().map(String::as_str);
+    titles.chain(frames).chain(blocks).chain(robots).chain(loads).collect()
 }
 
 /// Returns a copy of the scene in which code points replace the characters that no font has.
@@ -58,6 +59,7 @@ pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
     scene.frames.iter_mut().for_each(|f| spell(&mut f.title));
     scene.blocks.iter_mut().for_each(|b| spell(&mut b.id));
     scene.robots.iter_mut().for_each(|r| spell(&mut r.id));
+    scene.load_ids.iter_mut().flatten().for_each(spell);
     scene
 }
 

@@ -82,16 +82,20 @@ impl Render {
         if !self.watch {
             return self.once(terminal);
         }
-        let mut files = source::files(&self.scenes)?;
-        if files.iter().any(|file| file == Path::new("-")) {
+        let scenes = source::files(&self.scenes)?;
+        if scenes.iter().any(|file| file == Path::new("-")) {
             return Err(vec!["--watch needs files; standard input (-) cannot be read again".into()]);
         }
-        let scenes = files.clone();
-        files.extend(self.draw.look.file().map(Path::to_path_buf));
-        if let Some(port) = self.serve {
-            return preview::serve(self, port, (&files, &scenes), terminal);
+        match self.serve {
+            Some(port) => preview::serve(self, port, scenes, terminal),
+            None => watch::repeat(|| self.watched(), terminal, || self.once(terminal)),
         }
-        watch::repeat(&files, terminal, || self.once(terminal))
+    }
+
+    /// Returns the files that the figures depend on: the scenes, with all that are now in folders, and the style file.
+    fn watched(&self) -> Vec<PathBuf> {
+        let style = self.draw.look.file().map(Path::to_path_buf);
+        source::candidates(&self.scenes).into_iter().chain(style).collect()
     }
 
     /// Draws all figures once: checks the options, reads the scenes, draws in parallel, and writes the files.

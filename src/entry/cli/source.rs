@@ -141,6 +141,23 @@ pub(crate) fn expanded(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
     Ok(all)
 }
 
+/// Returns the files at `paths` and all `.json` files in folders, without reading them. A folder that cannot be read has
+/// none.
+pub(crate) fn candidates(paths: &[PathBuf]) -> Vec<PathBuf> {
+    let each = |path: PathBuf| if path.is_dir() { json_files(&path).unwrap_or_default() } else { vec![path] };
+    expanded(paths).unwrap_or_default().into_iter().flat_map(each).collect()
+}
+
+/// Returns the `.json` files in a folder, sorted by name.
+fn json_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let is_json = |file: &PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    let listed = fs::read_dir(folder)?.map(|entry| entry.map(|e| e.path()));
+    let mut listed = listed.collect::<io::Result<Vec<PathBuf>>>()?;
+    listed.retain(|file| is_json(file) && file.is_file());
+    listed.sort();
+    Ok(listed)
+}
+
 /// Returns the files at `paths` and the scene files in folders, and the other `.json` files in folders.
 fn sorted(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), CliError> {
     let (mut all, mut foreign) = (Vec::new(), Vec::new());
@@ -149,15 +166,10 @@ fn sorted(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), CliError> {
             all.push(path.clone());
             continue;
         }
-        let listed = fs::read_dir(path)
-            .and_then(|entries| (entries.map(|entry| entry.map(|e| e.path()))).collect::<io::Result<Vec<PathBuf>>>());
-        let listed = listed.map_err(|error| CliError::not_read(name(path), error))?;
-        let is_json = |file: &PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
-        let mut found: Vec<PathBuf> = (listed.into_iter()).filter(|file| is_json(file) && file.is_file()).collect();
+        let found = json_files(path).map_err(|error| CliError::not_read(name(path), error))?;
         if found.is_empty() {
             return Err(CliError::not_read(name(path), "the folder contains no .json files"));
         }
-        found.sort();
         // A file that cannot be read is reported later.
         let is_scene = |file: &PathBuf| fs::read(file).map_or(true, |bytes| looks_like_scene(&bytes));
         let (mut scenes, mut others): (Vec<PathBuf>, Vec<PathBuf>) = found.into_iter().partition(is_scene);

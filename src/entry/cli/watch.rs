@@ -19,27 +19,28 @@ const POLL_INTERVAL: Duration = Duration::from_millis(200);
 /// replaces the file.
 type FileStamp = Option<(SystemTime, u64)>;
 
-/// Runs a command, and runs it again whenever one of the files changes, until the process is stopped.
+/// Runs a command, and runs it again whenever one of the files changes, is new or is gone, until the process is stopped.
+/// `files` lists them.
 ///
 /// Errors of a run are printed. The command still runs again when a file changes.
 pub(crate) fn repeat(
-    files: &[PathBuf],
+    files: impl Fn() -> Vec<PathBuf>,
     terminal: &Terminal,
     mut run: impl FnMut() -> Result<ExitStatus, Vec<CliError>>,
 ) -> Result<ExitStatus, Vec<CliError>> {
     loop {
-        let before = stamps(files);
+        let before = stamps(files());
         if let Err(complaints) = run() {
             for complaint in &complaints {
                 terminal.refuse(complaint);
             }
         }
         // A change during the run counts too. If a file is still being written, wait until it stays unchanged.
-        let mut last = stamps(files);
+        let mut last = stamps(files());
         loop {
             thread::sleep(POLL_INTERVAL);
-            let now = stamps(files);
-            let is_settled = now == last && !now.contains(&None);
+            let now = stamps(files());
+            let is_settled = now == last && now.iter().all(|(_, stamp)| stamp.is_some());
             if is_settled && now != before {
                 break;
             }
@@ -48,8 +49,8 @@ pub(crate) fn repeat(
     }
 }
 
-fn stamps(files: &[PathBuf]) -> Vec<FileStamp> {
-    files.iter().map(|file| stamp(file)).collect()
+fn stamps(files: Vec<PathBuf>) -> Vec<(PathBuf, FileStamp)> {
+    files.into_iter().map(|file| (file.clone(), stamp(&file))).collect()
 }
 
 fn stamp(file: &Path) -> FileStamp {

@@ -35,10 +35,11 @@ pub fn pair(
         NewIndices { blocks: add_blocks(&mut scene, first, second), robots: add_robots(&mut scene, second) };
     // A block that both scenes share has the same loads in both. Add the loads on new blocks.
     let new = |load: &&Load| new_indices.block(load.block).0 >= first.blocks.len();
-    let entries = first.loads.iter().map(|load| load.entry + 1).max().unwrap_or(0);
+    let entries = first.load_ids.len();
     let renamed = |load: &Load| Load { block: new_indices.block(load.block), entry: entries + load.entry, ..*load };
     let more = second.loads.iter().filter(new).map(renamed);
     scene.loads.extend(more);
+    scene.load_ids.extend_from_slice(&second.load_ids);
     // Take one frame of each scene. The title of the second frame also lists how the scenes
     // differ in kernel, friction and corner contacts.
     let [title, later] = titles;

@@ -58,6 +58,11 @@ impl Scene {
         }
         forces
     }
+    /// Returns the id that the file gives a load; `None` if it gives none.
+    pub(crate) fn load_id(&self, load: &Load) -> Option<&str> {
+        self.load_ids.get(load.entry)?.as_deref()
+    }
+
     /// Returns the loads on the placed blocks as people list them: each load, and for each pressure its resultant. The
     /// resultant acts on the block that carries the largest part.
     pub(crate) fn loads_on(&self, placed: &[BlockId]) -> Vec<Load> {

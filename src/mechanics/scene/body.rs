@@ -95,6 +95,8 @@ pub struct Block {
     pub placement: f64,
     /// Whether the weight is computed from area, thickness and density, because the file gives neither weight nor mass.
     pub(crate) weighs_by_area: bool,
+    /// The mass in kg that the file gives; `None` if the weight is given or computed.
+    pub mass: Option<f64>,
 }
 
 /// The largest absolute values of the force components and of the torque that a robot can exert. A value is infinite

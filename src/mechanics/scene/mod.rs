@@ -95,6 +95,8 @@ pub struct Scene {
     pub(crate) robots: Vec<Robot>,
     /// Loads on blocks.
     pub(crate) loads: Vec<Load>,
+    /// The id that the file gives each load in its list.
+    pub(crate) load_ids: Vec<Option<String>>,
     /// The load cases; empty if all loads act as listed.
     pub(crate) cases: Vec<Case>,
     /// Small movements of parts of the ground.

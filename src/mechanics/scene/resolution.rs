@@ -178,6 +178,7 @@ impl<'f> Resolution<'f> {
             blocks: blocks.into_iter().collect::<Option<_>>()?,
             robots,
             loads,
+            load_ids: self.file.loads.iter().map(|load| load.id.clone()).collect(),
             cases,
             movements,
             vehicle,

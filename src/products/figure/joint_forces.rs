@@ -431,6 +431,10 @@ fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, mechanism: &[Motion]) -> 
     let (zero, moves) = (0.02 * fastest, 0.06 * fastest);
     let motions: BTreeMap<BodyId, &Motion> = mechanism.iter().map(|m| (BodyId::Block(m.block), m)).collect();
     let velocity = |body: BodyId, at: Point| motions.get(&body).map_or(Vector::zeros(), |motion| motion.at(scene, at));
+    let lacks_friction = |pair: [BodyId; 2]| {
+        let mut failures = found.failures.iter();
+        failures.any(|failure| matches!(failure, Failure::Friction { bodies, .. } if *bodies == pair))
+    };
     let one = |contact: &'a Contact| {
         let interface = &contact.interface;
         let [a, b] = interface.bodies;
@@ -442,7 +446,10 @@ fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, mechanism: &[Motion]) -> 
         let how = match (closed, opens) {
             ([true, _], [_, true]) => How::Hinge(interface.ends[0]),
             ([_, true], [true, _]) => How::Hinge(interface.ends[1]),
-            ([true, true], _) if slide[0].abs() > moves => How::Slip(slide[0], None),
+            // A missing friction is drawn at the same place, and shows the slip too.
+            ([true, true], _) if slide[0].abs() > moves && !lacks_friction(interface.bodies) => {
+                How::Slip(slide[0], None)
+            }
             _ => return None,
         };
         Some(Gives { contact, how })

@@ -75,7 +75,7 @@ pub enum Kind {
     Build,
     /// The external forces on the structure, and their force polygon.
     Polygon,
-    /// The structure in its present position, and dashed outlines that show how it falls just beyond a margin: with
+    /// The structure in its present position, and strong outlines that show how it falls just beyond a margin: with
     /// gravity turned, with a horizontal load added, or with larger loads.
     Margin,
     /// The forces that a block can carry at a point, as a polygon at this point, and how the structure falls beyond its

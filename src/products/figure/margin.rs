@@ -1,7 +1,7 @@
-//! Draws a collapse margin: the structure in its present position, and dashed lines that show how it would fall just
+//! Draws a collapse margin: the structure in its present position, and strong outlines that show how it would fall just
 //! beyond the margin.
 //!
-//! The options choose the [parameter](Toward). The structure stands for an interval of values of this parameter. Dashed
+//! The options choose the [parameter](Toward). The structure stands for an interval of values of this parameter. The
 //! outlines show how it would fall beyond the end that is nearer to the present state; for the load factor, beyond the
 //! upper end. Hinges and slips are those of this collapse. If gravity is turned or a horizontal load is added, arrows
 //! show the values at both ends. Loads are drawn with their present magnitudes.
@@ -88,7 +88,7 @@ fn parameter(toward: Toward) -> Parameter {
 pub(super) fn ghosts(canvas: &mut Canvas<'_>, fall: &Fall<'_>) {
     let unit = unit(fall.scene, canvas.options.zoom);
     let course = &canvas.own().courses.get_or_init(|| vec![Course::new(fall, unit)])[0];
-    let edge = Stroke::new(moved_edge(canvas.theme()), canvas.mm(0.24)).dashed([canvas.mm(0.9), canvas.mm(0.65)]);
+    let edge = Stroke::new(moved_edge(canvas.theme()), canvas.mm(0.24));
     let mut outline = Outline::default();
     for (block, displacement) in fall.scene.blocks.iter().zip(course.at(1.0)) {
         if let Some(displacement) = displacement {

@@ -8,7 +8,7 @@ use super::design::{ArrowSize, Key, Layer, Mark, along, colour};
 use super::placing::Label;
 use super::words::{force, quantity, round_below_in};
 use crate::geometry::{Bounds, Edge, Lattice, Point, Vector};
-use crate::mechanics::scene::{BlockId, Body, BodyId, Hold, Load};
+use crate::mechanics::scene::{BlockId, Body, BodyId, Hold, Load, Scene};
 use crate::pictures::drawing::{Camera, Colour, Face, Outline, PagePoint, PageRect, Path, Stroke, arrow, text};
 
 /// At most about this many loads have amounts, the largest.
@@ -246,7 +246,8 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
             let mark = torque(canvas, at, load.torque, (radius, 0.45), ink);
             canvas.put(Mark::new(Layer::Load, "torque", mark).titled(title).avoided(canvas.mm(0.2)));
             let side = at.moved(canvas.mm(radius + 0.4), 0.0);
-            amount(canvas, quantity(load.torque.abs(), units), ink, (vec![side], 0), Some((0.0, -1.0)));
+            let words = named(scene, load, quantity(load.torque.abs(), units));
+            amount(canvas, words, ink, (vec![side], 0), Some((0.0, -1.0)));
         }
     }
 }
@@ -291,7 +292,15 @@ fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>, has
     let far = if ends { tail } else { along(at, u, length, 0.0) };
     let away = if ends { (-u.0, -u.1) } else { u };
     let anchors = vec![far, along(tail, u, length / 2.0, 0.0)];
-    amount(canvas, quantity(norm, scene.units.force()), ink, (anchors, 0), Some(away));
+    amount(canvas, named(scene, load, quantity(norm, scene.units.force())), ink, (anchors, 0), Some(away));
+}
+
+/// Writes the id of a load, if the file gives one, before its amount.
+fn named(scene: &Scene, load: &Load, amount: String) -> String {
+    match scene.load_id(load) {
+        Some(id) => format!("{id}: {amount}"),
+        None => amount,
+    }
 }
 
 /// Returns the length of the part of a line segment that lies in placed blocks, pixels.
@@ -367,7 +376,10 @@ pub(crate) fn turning(torque: f64, amount: String) -> String {
 /// Draws the disc of a robot on its grip point.
 fn disc(canvas: &mut Canvas<'_>, hold: &Hold) {
     let (scene, edge) = (canvas.scene(), Stroke::new(canvas.theme().ink, canvas.mm(0.22)));
-    let outline = Outline::circle(canvas.place_on(BodyId::Block(hold.block), hold.at), canvas.mm(1.35));
+    let block = canvas.camera.rect(scene.blocks[hold.block.0].body.polygon.bounds());
+    // A large disc hides a small block.
+    let radius = canvas.mm(1.35).min((0.3 * block.width.min(block.height)).max(canvas.mm(0.5)));
+    let outline = Outline::circle(canvas.place_on(BodyId::Block(hold.block), hold.at), radius);
     let disc = Path::filled(outline, canvas.theme().robot(hold.robot.0)).with_stroke(edge);
     let title = format!("Robot {} holds block {}", scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id);
     canvas.put(Mark::new(Layer::Symbol, "robot", vec![disc]).titled(title).avoided(canvas.mm(0.15)));
@@ -525,8 +537,8 @@ pub(crate) fn scale_bar(canvas: &Canvas<'_>) -> Option<Key> {
 }
 
 /// Returns the blocks of all frames, placed or planned.
-pub(crate) fn shown_blocks(canvas_scene: &crate::mechanics::scene::Scene) -> Vec<BlockId> {
-    let frames = canvas_scene.frames.iter();
+pub(crate) fn shown_blocks(scene: &Scene) -> Vec<BlockId> {
+    let frames = scene.frames.iter();
     let mut ids: Vec<BlockId> = frames
         .flat_map(|frame| frame.placed.iter().copied().chain(frame.plans.iter().map(|plan| plan.block)))
         .collect();

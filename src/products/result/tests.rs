@@ -30,6 +30,7 @@ fn scene() -> Scene {
         weight: 5.0,
         placement: 1.0,
         weighs_by_area: false,
+        mass: None,
     };
     Scene {
         title: "A \"wedge\"".into(),
@@ -51,6 +52,7 @@ fn scene() -> Scene {
         blocks: vec![block("a"), block("b")],
         robots: vec![Arm { id: "r0".into(), limits: Limits::default(), holds: None }],
         loads: vec![],
+        load_ids: vec![],
         cases: vec![],
         movements: vec![],
         vehicle: None,

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::discovery::shown;
 use super::layer::Layer;
 use super::store;
+use crate::mechanics::analysis::{FALLS, STANDS, UNDECIDED};
 use crate::mechanics::scene::{Code, Problem, SceneError};
 use crate::pictures::output::file::WriteError;
 
@@ -232,8 +233,7 @@ impl CheckOutcome {
 
     /// Returns the snapshots with findings: changed verdicts first, then other facts, drawings and pixels.
     pub(super) fn failing_by_importance(&self) -> Vec<&Snapshot> {
-        let is_verdict =
-            |words: &String| ["stable", "unstable", "undecided"].iter().any(|v| words.ends_with(&format!("→ {v}")));
+        let is_verdict = |words: &String| [STANDS, FALLS, UNDECIDED].iter().any(|v| words.ends_with(&format!("→ {v}")));
         let mut failing: Vec<&Snapshot> = self.failing().collect();
         failing.sort_by_key(|snapshot| {
             let facts = snapshot.findings.iter().filter(|f| f.layer == Layer::Facts);

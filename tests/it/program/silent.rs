@@ -113,6 +113,9 @@ fn a_csv_file_is_csv() {
     assert!(rows[0].starts_with("file,line,scene,frame,title,verdict,weight_n,"), "{text}");
     let columns = rows[0].split(',').count();
     assert!(rows.iter().all(|row| row.split(',').count() == columns), "{text}");
+    let cells = rows.iter().skip(1).flat_map(|row| row.split(','));
+    let digits = |cell: &str| cell.trim_matches(['0', '.']).chars().filter(char::is_ascii_digit).count();
+    assert!(cells.filter(|cell| cell.parse::<f64>().is_ok()).all(|cell| digits(cell) <= 12), "{text}");
     assert!(rows[1].starts_with("\"falls.json\",,") && rows[1].contains(",1,"), "{text}");
     assert!(rows.iter().any(|row| row.contains(",unstable,")), "{text}");
     assert!(rows.last().is_some_and(|row| row.contains("\"line 3: ")), "{text}");

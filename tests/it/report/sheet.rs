@@ -67,3 +67,17 @@ fn a_support_is_named_by_its_side_and_a_stone_by_its_numbers() {
     }
     assert!(!page.contains("unnamed"), "{page}");
 }
+
+#[test]
+fn the_inputs_are_those_that_the_author_gave() {
+    let text = r#"{ "drystone": 1, "ground": [{ "polygon": [[-1, -1], [3, -1], [3, 0], [-1, 0]] }],
+        "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 2], [0, 2]], "mass": 500 },
+                   { "id": "b", "polygon": [[1, 0], [2, 0], [2, 2], [1, 2]], "weight": 7000 }],
+        "loads": [{ "id": "crane", "block": "a", "force": [0, -900] }, { "block": "b", "force": [0, -800] }] }"#;
+    let folder = Folder::new(&[("a.json", text)]);
+    folder.done("report a.json -o a.md");
+    let page = folder.text("a.md");
+    for words in ["| mass of a block, kg |", "| 2 | – | 500 | 0.7 |", "| crane: a |", "| b | 1.5 |"] {
+        assert!(page.contains(words), "{words}: {page}");
+    }
+}

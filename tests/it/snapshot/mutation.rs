@@ -227,7 +227,7 @@ fn every_mutation_is_reported_by_the_expected_layers() {
         Row {
             what: "a missing block",
             found: Sample::scene(&without_a_post),
-            facts: "frame 1: stable → unstable",
+            facts: "frame 1: stands → falls",
             svg: "<title>Block right</title>",
             pixels: "found",
         },
@@ -254,7 +254,7 @@ fn a_missing_block_is_reported_before_the_blocks_that_fall_without_it() {
     file["blocks"].as_array_mut().expect("blocks").remove(1);
     let [facts, ..] = messages(&Sample::scene(&text), &Sample::scene(&file.to_string()));
     assert_eq!(facts[0], "block right is gone: weight 60 N", "the cause");
-    assert_eq!(facts[1], "frame 1: stable → unstable", "its effect");
+    assert_eq!(facts[1], "frame 1: stands → falls", "its effect");
     assert!(facts.contains(&"block lintel no longer stands".into()), "{facts:#?}");
     for gone in ["block right is gone: weight 60 N", "interface right–ground is gone"] {
         assert!(facts.iter().any(|w| w.starts_with(gone)), "{facts:#?}");

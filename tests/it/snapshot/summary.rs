@@ -23,7 +23,7 @@ fn the_summary_begins_with_the_changed_verdict_and_has_old_and_new_pictures() {
     let text = fs::read_to_string(folder.path("sum mary.md")).expect("written");
     let place = |words: &str| text.find(words).unwrap_or_else(|| panic!("{words} is not in {text}"));
     assert!(place("#### scenes/b") < place("#### scenes/a"), "the changed verdict comes first");
-    place("| frame 1 | stable → unstable |");
+    place("| frame 1 | stands → falls |");
     place("| the scene | the title was \"One: a lintel\", and is now \"One: the \\<lintel\\>\" |");
     for number in 1..=6 {
         place(&format!("(<sum mary-pictures/{number}.png>)"));
@@ -73,7 +73,7 @@ fn the_script_of_the_action_compares_with_the_commit_before_and_fails_if_somethi
     assert!(changes.contains("scenes/b.json") && !changes.contains("scenes/a.json"), "only the changed scene");
     assert!(folder.path("pages/snapshots.html").exists() && folder.path("pages/summary-pictures/1.png").exists());
     let job = fs::read_to_string(folder.path("job.md")).expect("written");
-    assert!(job.contains("| frame 1 | stable → unstable |") && !job.contains("!["), "{job}");
+    assert!(job.contains("| frame 1 | stands → falls |") && !job.contains("!["), "{job}");
     // A commit that nobody has is no error: the first push to a branch has none before it.
     folder.command(&["scenes", "--accept"]).status().expect("runs");
     assert_eq!(act("0000000000000000000000000000000000000000").code, 0);

@@ -7,7 +7,8 @@ use crate::products::result::Origin;
 use crate::products::wording::verdict::word;
 use crate::text;
 
-/// The first row: the names of the columns. Forces are in newtons. `friction_used` is the largest used fraction of the
+/// The first row: the names of the columns. Forces are in newtons, and all numbers have at
+/// most twelve significant digits. `friction_used` is the largest used fraction of the
 /// available friction at any contact, and `limit_used` the largest used fraction of the limits of any robot.
 pub(super) const HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,largest_force_n,total_force_n,total_sticking_n,friction_used,limit_used,problem\n";
 
@@ -28,7 +29,7 @@ pub(super) fn rows(origin: &Origin, analysis: &Analysis) -> String {
             (answer.contacts.iter().map(|c| c.friction_used)).fold(0.0, f64::max),
             (answer.robots.iter().map(|r| r.limit_used)).fold(0.0, f64::max),
         ];
-        let numbers = numbers.map(|number| number.to_string()).join(",");
+        let numbers = numbers.map(|number| rounded(number).to_string()).join(",");
         format!("{start},{name},{},{title},{verdict},{numbers},\n", number + 1)
     };
     frames.map(row).collect()
@@ -43,6 +44,11 @@ pub(super) fn problem_row(origin: &Origin, problems: &[Problem]) -> String {
     });
     let between = ",".repeat(HEADER.matches(',').count() - 1);
     format!("{}{between}{}\n", place(origin), cell(&words))
+}
+
+/// Rounds a number to twelve significant digits, so that no rounding errors of sums follow.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.11e}").parse().unwrap_or(number)
 }
 
 fn place(origin: &Origin) -> String {

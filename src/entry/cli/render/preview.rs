@@ -53,7 +53,6 @@ type Shown = (String, String);
 /// The figures of scenes for a browser.
 struct Preview<'a> {
     render: &'a Render,
-    scenes: &'a [PathBuf],
     terminal: &'a Terminal,
     state: Mutex<State>,
     changed: Condvar,
@@ -63,17 +62,18 @@ struct Preview<'a> {
 struct State {
     /// The number of times that files were saved.
     version: u64,
-    /// Whether each scene is valid.
+    scenes: Vec<PathBuf>,
+    /// Whether each scene is valid; empty before the first drawing.
     valid: Vec<bool>,
     /// The last good figure of each scene, for each kind and theme that a page asked for.
     good: BTreeMap<[String; 3], Shown>,
 }
 
-/// Serves the page on `port` until the program is stopped. `files` are watched, `scenes` are the scenes among them.
+/// Serves the page on `port` until the program is stopped. `scenes` are the files at the start.
 pub(super) fn serve(
     render: &Render,
     port: Option<u16>,
-    (files, scenes): (&[PathBuf], &[PathBuf]),
+    scenes: Vec<PathBuf>,
     terminal: &Terminal,
 ) -> Result<ExitStatus, Vec<CliError>> {
     let bound = TcpListener::bind((Ipv4Addr::LOCALHOST, port.unwrap_or(PORT)));
@@ -81,7 +81,8 @@ pub(super) fn serve(
     let opened = bound.and_then(|listener| Ok((listener.local_addr()?, listener)));
     let (address, listener) = opened.map_err(|why| CliError::from(format!("--serve cannot open the port: {why}")))?;
     terminal.note(&format!("open http://{address}/ in a browser; Ctrl+C ends the preview"));
-    let preview = Preview { render, scenes, terminal, state: Mutex::default(), changed: Condvar::new() };
+    let state = Mutex::new(State { scenes, ..State::default() });
+    let preview = Preview { render, terminal, state, changed: Condvar::new() };
     thread::scope(|scope| {
         scope.spawn(|| {
             for stream in listener.incoming().flatten() {
@@ -90,7 +91,7 @@ pub(super) fn serve(
                 scope.spawn(move || preview.answer(&stream));
             }
         });
-        watch::repeat(files, terminal, || preview.saved())
+        watch::repeat(|| render.watched(), terminal, || preview.saved())
     })
 }
 
@@ -99,8 +100,14 @@ impl Preview<'_> {
     fn saved(&self) -> Result<ExitStatus, Vec<CliError>> {
         let level = &self.render.draw.figure.level;
         let read = |scene: &PathBuf| source::read(std::slice::from_ref(scene), self.render.frame, level);
-        let read: Vec<Result<_, Vec<CliError>>> = self.scenes.iter().map(read).collect();
+        let scenes = source::files(&self.render.scenes)?;
+        let read: Vec<Result<_, Vec<CliError>>> = scenes.iter().map(read).collect();
         let mut state = self.state();
+        if state.scenes != scenes {
+            // The numbers of the scenes change.
+            state.good.clear();
+            state.scenes = scenes;
+        }
         state.valid = read.iter().map(Result::is_ok).collect();
         state.version += 1;
         drop(state);
@@ -166,7 +173,7 @@ impl Preview<'_> {
         let is_old = |state: &mut State| state.version == 0 || state.version.to_string() == since;
         let waited = self.changed.wait_timeout_while(self.state(), PATIENCE, is_old);
         let (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
-        let scenes = self.scenes.iter().zip(&state.valid);
+        let scenes = state.scenes.iter().zip(&state.valid);
         let scenes = scenes.map(|(path, valid)| format!("[{},{valid}]", quoted(&source::name(path))));
         let figure = &self.render.draw.figure;
         let needs_more = |kind: Kind| {
@@ -201,8 +208,8 @@ impl Preview<'_> {
     }
 
     /// Returns the scene with this number, the command with the kind and the theme, and what drawing needs.
-    fn prepared(&self, [scene, kind, theme]: [&str; 3]) -> Result<(&PathBuf, Render, Options, Fonts), CliError> {
-        let scene = scene.parse().ok().and_then(|number: usize| self.scenes.get(number));
+    fn prepared(&self, [scene, kind, theme]: [&str; 3]) -> Result<(PathBuf, Render, Options, Fonts), CliError> {
+        let scene = scene.parse().ok().and_then(|number: usize| self.state().scenes.get(number).cloned());
         let mut render = self.render.clone();
         render.draw.figure.kind = Kind::from_name(kind).unwrap_or(render.draw.figure.kind);
         let theme = ThemeChoice::all().into_iter().find(|choice| choice.word() == theme);
@@ -214,7 +221,7 @@ impl Preview<'_> {
 
     fn draw(&self, asked: [&str; 3]) -> Result<Shown, Vec<CliError>> {
         let (scene, render, options, fonts) = self.prepared(asked)?;
-        let sources = source::read(std::slice::from_ref(scene), render.frame, &render.draw.figure.level)?;
+        let sources = source::read(std::slice::from_ref(&scene), render.frame, &render.draw.figure.level)?;
         let mut drawn = render.render_all(&sources, false, &options, Format::Svg, &fonts, self.terminal);
         let drawn = drawn.pop().ok_or_else(|| CliError::from("there is no such scene"))??;
         Ok((String::from_utf8_lossy(&drawn.bytes.concat()).into_owned(), drawn.summary))
@@ -223,7 +230,7 @@ impl Preview<'_> {
     /// Returns the outlines of a scene that is not valid, with its problems marked.
     fn outlines(&self, asked: [&str; 3]) -> Option<Shown> {
         let (scene, render, options, fonts) = self.prepared(asked).ok()?;
-        let (_, picture) = render.sketch(scene, &options, Format::Svg, &fonts).ok()?.ok()?;
+        let (_, picture) = render.sketch(&scene, &options, Format::Svg, &fonts).ok()?.ok()?;
         Some((String::from_utf8_lossy(&picture).into_owned(), "the outlines, with the problems marked".into()))
     }
 }

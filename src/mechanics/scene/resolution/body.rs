@@ -158,7 +158,7 @@ impl Resolution<'_> {
             let newtons = weight.map(|w| w * self.units.force().size);
             let weight = newtons.or(mass.map(|mass| mass * self.gravity.norm()));
             let block = self.schematic_block(findings, at, entry, i, centre, weight)?;
-            return Some(Block { placement, ..block });
+            return Some(Block { placement, mass: mass.filter(|_| entry.weight.is_none()), ..block });
         }
         let centre = entry.centre.filter(|centre| is_sane(findings, &at.key("centre"), centre));
         let body = self.body(findings, at, &entry.into())?;
@@ -192,6 +192,7 @@ impl Resolution<'_> {
             weight,
             placement,
             weighs_by_area,
+            mass: mass.filter(|_| entry.weight.is_none()),
         })
     }
 }
@@ -242,6 +243,7 @@ impl Resolution<'_> {
             weight,
             placement: 1.0,
             weighs_by_area: false,
+            mass: None,
         })
     }
 }

@@ -49,16 +49,12 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
         weights.sum()
     };
     let newtons = units.newtons(groups.iter().map(|g| weight(&g.1)));
-    let mut grid = Grid::new(
-        "",
-        &[
-            "material".to_owned(),
-            "#blocks".to_owned(),
-            "#density, kg/m³".to_owned(),
-            "#friction μ".to_owned(),
-            newtons.head("weight"),
-        ],
-    );
+    let mass = |id: &BlockId| scene.blocks[id.0].mass;
+    let has_masses = scene.frames[number].placed.iter().any(|id| mass(id).is_some());
+    let mut heads = vec!["material".to_owned(), "#blocks".to_owned(), "#density, kg/m³".to_owned()];
+    heads.extend(has_masses.then(|| "#mass of a block, kg".to_owned()));
+    heads.extend(["#friction μ".to_owned(), newtons.head("weight")]);
+    let mut grid = Grid::new("", &heads);
     for (material, blocks) in &groups {
         let name = match material {
             Some(material) => line(&scene.materials[*material].name),
@@ -67,15 +63,12 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
                     format!("as {stone}")
                 }),
         };
-        let densities = blocks.iter().filter_map(|id| density(scene, *id));
-        let frictions = blocks.iter().map(|id| scene.blocks[id.0].body.friction);
-        let cells = [
-            name,
-            blocks.len().to_string(),
-            ValueRange::words(densities.fold(None, ValueRange::add)),
-            ValueRange::words(frictions.fold(None, ValueRange::add)),
-            newtons.write(weight(blocks)),
-        ];
+        let mut densities = blocks.iter().filter_map(|id| density(scene, *id));
+        let mut frictions = blocks.iter().map(|id| scene.blocks[id.0].body.friction);
+        let range = |values: &mut dyn Iterator<Item = f64>| ValueRange::words(values.fold(None, ValueRange::add));
+        let mut cells = vec![name, blocks.len().to_string(), range(&mut densities)];
+        cells.extend(has_masses.then(|| range(&mut blocks.iter().filter_map(mass))));
+        cells.extend([range(&mut frictions), newtons.write(weight(blocks))]);
         grid.add("", cells);
     }
     grid
@@ -97,11 +90,11 @@ fn known_stone(_scene: &Scene, _blocks: &[BlockId]) -> Option<&'static str> {
     None
 }
 
-/// Returns the density of a block in kg/m³, computed from its weight and outline. Returns `None` if the scene has no
-/// outline of the block, or if gravity or thickness is zero.
+/// Returns the density of a block in kg/m³, computed from its weight and outline. Returns `None` if the file gives its
+/// weight or mass instead, or if gravity or thickness is zero.
 fn density(scene: &Scene, block: BlockId) -> Option<f64> {
     let own = &scene.blocks[block.0];
-    if own.body.is_schematic {
+    if !own.weighs_by_area {
         return None;
     }
     let volume = own.body.polygon.area() * scene.thickness;
@@ -129,10 +122,12 @@ pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
         let parts = scene.loads.iter().filter(|part| part.entry == load.entry && placed.contains(&part.block));
         let mut blocks: Vec<BlockId> = parts.map(|part| part.block).collect();
         blocks.dedup();
-        match load.spread {
+        let target = match load.spread {
             Some(_) => format!("pressure on {}", first_of(blocks.into_iter().map(name), MAX_NAMED)),
             None => name(load.block),
-        }
+        };
+        // The figures write this id at the load.
+        scene.load_id(load).map_or(target.clone(), |id| format!("{}: {target}", line(id)))
     };
     for load in loads.iter().take(MAX_ROWS) {
         let mut cells = vec![

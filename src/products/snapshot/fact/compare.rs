@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use super::{Fact, Facts, QUANTITIES, UNITLESS_DECIMALS, power_of_ten};
+use crate::mechanics::analysis::{FALLS, STANDS};
 
 /// If more than this number of blocks or interfaces changed in the same way, one line reports all of them.
 const MAX_SINGLE_CHANGES: usize = 4;
 
 /// The words for a block that begins to fall, and for one that no longer falls; then the words for several.
-const FALLS: [(&str, &str); 2] =
+const BLOCK_FALLS: [(&str, &str); 2] =
     [(" no longer stands", "blocks no longer stand: "), (" no longer falls", "blocks no longer fall: ")];
 
 /// The importance of a change. The most important changes come first.
@@ -81,7 +82,7 @@ fn in_words(changes: &[Change<'_>]) -> Vec<String> {
     let mut words = Vec::new();
     for change in changes {
         let (place, kind, how) = (&change.place, change.kind, &change.how);
-        let falls = FALLS.iter().find(|(one, _)| one == how);
+        let falls = BLOCK_FALLS.iter().find(|(one, _)| one == how);
         let can_group = falls.is_some() || ["block", "interface"].contains(&kind) && how.contains(" → ");
         match alike.get(&key(change)).filter(|names| can_group && names.len() > MAX_SINGLE_CHANGES) {
             None => words.push(format!("{place}{}{how}", change.object)),
@@ -197,7 +198,7 @@ impl<'f> Comparison<'f> {
             return;
         }
         if key.0 == "falls" {
-            let how = FALLS[usize::from(!is_new)].0;
+            let how = BLOCK_FALLS[usize::from(!is_new)].0;
             return self.add_object((Rank::Fall, 0.0), called(key), how.into());
         }
         let rank = if key.0.starts_with("failure") { Rank::Failure } else { Rank::Presence };
@@ -286,7 +287,11 @@ fn numbers(value: &Value) -> String {
     match value {
         Value::Array(list) => list.iter().map(numbers).collect::<Vec<_>>().join(", "),
         Value::Number(number) => number.as_f64().unwrap_or_default().to_string().replace('-', "−"),
-        Value::String(word) => word.clone(),
+        Value::String(word) => match word.as_str() {
+            "stable" => STANDS.into(),
+            "unstable" => FALLS.into(),
+            other => other.into(),
+        },
         _ => "none".into(),
     }
 }

@@ -85,7 +85,8 @@ impl Parameter {
             v if v > 0.0 => " right",
             _ => "",
         };
-        format!("{}{unit}{side}", number(value.abs()))
+        let past = if self == Parameter::Tilt && value.abs() > 180.0 { " (past upside down)" } else { "" };
+        format!("{}{unit}{side}{past}", number(value.abs()))
     }
 }
 
