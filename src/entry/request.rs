@@ -39,9 +39,9 @@ request! {
         contact_tolerance: Option<f64> = given.value("contact_tolerance", length),
             arg(long, value_name = "METRES", value_parser = length);
         /// Stop solving after this many seconds; frames that are not decided by then are undecided
-        time_limit: Option<Duration> = given.value("time_limit", seconds),
+        time_limit: Option<TimeLimit> = given.value("time_limit", seconds),
             arg(long, value_name = "SECONDS", env = "DRYSTONE_TIME_LIMIT", hide_env_values = true,
-                value_parser = seconds);
+                value_parser = |typed: &str| seconds(typed).map(TimeLimit::started));
         /// Give a key of the scene another value, such as friction=0.5, kernel=0.2, gravity=[0,-1.62] or
         /// blocks.V3.weight=20, also several times; tilt=5 turns gravity to the right by 5°, and load_factor=2 doubles
         /// all loads
@@ -162,7 +162,36 @@ impl From<String> for Refused {
     }
 }
 
+/// A time limit. On the command line it counts from the start of the command, and all parts of the command keep this one
+/// end. In JSON, whose options serve for many scenes, it counts from the start of each analysis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TimeLimit {
+    /// The duration that was asked for.
+    pub given: Duration,
+    /// When it began; `None` before the work begins.
+    began: Option<Instant>,
+}
+
+impl TimeLimit {
+    /// Returns the same limit, counted from now.
+    #[cfg(feature = "cli")]
+    pub(crate) fn started(self) -> TimeLimit {
+        TimeLimit { began: Some(Instant::now()), ..self }
+    }
+
+    /// Returns the time at which the work ends. `None` if no clock can show it.
+    pub(crate) fn end(self) -> Option<Instant> {
+        self.began.unwrap_or_else(Instant::now).checked_add(self.given)
+    }
+}
+
 impl AnalysisArgs {
+    /// Returns the same options with a time limit that counts from now: for the next of several scenes, or for a new run.
+    #[cfg(feature = "cli")]
+    pub(crate) fn started(&self) -> AnalysisArgs {
+        AnalysisArgs { time_limit: self.time_limit.map(TimeLimit::started), ..self.clone() }
+    }
+
     /// Reads the text of a scene. With `frame`, the scene keeps only this frame.
     pub(crate) fn scene(&self, text: &str, frame: Option<FrameChoice>) -> Result<Scene, Refused> {
         let (scene, _) = self.read_scene(0, text.as_bytes())?;
@@ -182,15 +211,14 @@ impl AnalysisArgs {
         Scene::from_slice_set(lines_before, bytes, self.contact_tolerance, &self.set)
     }
 
-    /// Returns the options of the analysis, without the contact tolerance, which the reader of the scene applies. The
-    /// time limit starts at this call.
+    /// Returns the options of the analysis, without the contact tolerance, which the reader of the scene applies.
     pub(crate) fn options(&self) -> analysis::Options {
         analysis::Options {
             accuracy: self.accuracy,
             wedging: self.wedging,
             placement: self.placement,
             removable: self.removable,
-            deadline: self.time_limit.and_then(|limit| Instant::now().checked_add(limit)),
+            deadline: self.time_limit.and_then(TimeLimit::end),
             ..analysis::Options::default()
         }
     }
@@ -200,7 +228,7 @@ impl AnalysisArgs {
     #[cfg(feature = "cli")]
     pub(crate) fn described(&self) -> [(&'static str, String); 7] {
         let tolerance = self.contact_tolerance.map(|metres| format!("{metres} m"));
-        let limit = self.time_limit.map(|limit| format!("{limit:?}"));
+        let limit = self.time_limit.map(|limit| format!("{:?}", limit.given));
         [
             ("--accuracy", self.accuracy.word().to_owned()),
             ("--wedging", if self.wedging { "yes" } else { "no" }.into()),
@@ -249,7 +277,7 @@ impl CapacityArgs {
 }
 
 impl CheckArgs {
-    /// Returns the options of the analysis that do not depend on the scene. The time limit starts at this call.
+    /// Returns the options of the analysis that do not depend on the scene.
     pub(crate) fn base(&self) -> analysis::Options {
         let mut options = self.margins.add_to(self.level.options()).verdict_only(self.verdict_only);
         options.sensitivity = self.sensitivity.map(|margin| margin.0);
@@ -527,9 +555,9 @@ fn reach(typed: &str) -> Result<Reach, String> {
     Ok(Reach { kind, value: between(value, [0.0, if kind == Tilt { 80.0 } else { 1e6 }], error)? })
 }
 
-fn seconds(typed: &str) -> Result<Duration, String> {
+fn seconds(typed: &str) -> Result<TimeLimit, String> {
     let seconds = between(typed, [0.0, 1e6], || "give a time in seconds, from 0 to 1000000".into());
-    seconds.map(Duration::from_secs_f64)
+    seconds.map(|seconds| TimeLimit { given: Duration::from_secs_f64(seconds), began: None })
 }
 
 /// Parses a width in print.
@@ -561,6 +589,19 @@ mod tests {
         for wrong in ["", "#", "#fff", "#+12345", "f4f1ea", "#f4f1e", "#f4f1eag", "red", "#ünï"] {
             assert!(wrong.parse::<Background>().is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn a_command_has_one_end_and_each_analysis_of_an_option_in_json_its_own() {
+        let level = read_json(Some(r#"{ "time_limit": 0.5 }"#), AnalysisArgs::read).expect("options");
+        let ends = |level: &AnalysisArgs| {
+            let first = level.options().deadline;
+            std::thread::sleep(Duration::from_millis(2));
+            first < level.options().deadline
+        };
+        assert!(ends(&level));
+        #[cfg(feature = "cli")]
+        assert!(!ends(&level.started()));
     }
 
     #[test]

@@ -13,7 +13,6 @@ use std::thread;
 
 use clap::Args;
 
-use crate::clock::Instant;
 use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
@@ -287,15 +286,14 @@ impl SceneWork {
             Ok(bytes) => bytes,
             Err(why) => return Ok(self.refused(origin, &[problem(Code::NotReadable, why, "")])),
         };
-        let began = Instant::now();
+        let level = self.level.started();
         let lines_before = record.line.map_or(0, |n| n - 1);
-        let scene = match read_in_time(&input::shown(record), lines_before, bytes.to_vec(), &self.level) {
+        let scene = match read_in_time(&input::shown(record), lines_before, bytes.to_vec(), &level) {
             Ok(Ok((scene, _))) => scene,
             Ok(Err(problems)) => return Ok(self.refused(origin, &problems.list)),
             Err(late) => return Ok(self.refused(origin, &[problem(Code::NotReadable, &late, "")])),
         };
-        let mut options = self.options();
-        options.deadline = self.level.time_limit.and_then(|limit| began.checked_add(limit));
+        let options = self.options(&level);
         if self.drawn.is_none() && self.fields.are_few() && self.form == Form::Json {
             let found = verdicts(&scene, &options);
             let ending = ExitStatus::from_verdicts(&scene, found.iter().copied());
@@ -324,9 +322,9 @@ impl SceneWork {
     }
 
     /// Returns the options of the analysis. Margins and the test of wedging are computed only if `--fields`,
-    /// `--margins` or `--wedging` requests them. The time limit starts at this call.
-    fn options(&self) -> Options {
-        let mut options = self.margins.add_to(self.level.options());
+    /// `--margins` or `--wedging` requests them.
+    fn options(&self, level: &AnalysisArgs) -> Options {
+        let mut options = self.margins.add_to(level.options());
         if self.fields.ask(&["frames", "margins"]) {
             options.margins = true;
         }

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::clock::Instant;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::page::Page;
@@ -62,7 +61,6 @@ impl Check {
         for file in source::foreign_files(&self.scenes)? {
             terminal.note(&format!("{}: left out, because it has no key \"drystone\"", source::name(&file)));
         }
-        let began = Instant::now();
         let reading = Progress::begin(1, terminal.progress());
         reading.doing("reading");
         let outcomes = source::read_each(&self.scenes, self.what.frame, &self.what.level)?;
@@ -92,7 +90,7 @@ impl Check {
             return Err(refused.into_iter().map(|(.., complaint)| complaint).collect());
         }
         let width = terminal.width();
-        let answers = self.answers(&sources, layout, terminal, width, began);
+        let answers = self.answers(&sources, layout, terminal, width);
 
         let mut done = Vec::new();
         for ((number, source), answer) in sources.into_iter().zip(answers) {
@@ -119,19 +117,17 @@ impl Check {
         Ok(endings.chain(wrong).max().unwrap_or(ExitStatus::Done))
     }
 
-    /// Analyses all scenes in parallel, and shows a progress bar if this takes long. The time limit counts from `began`. Returns a result or an error for
-    /// each scene, in the order of `sources`.
+    /// Analyses all scenes in parallel, and shows a progress bar if this takes long. Returns a result or an
+    /// error for each scene, in the order of `sources`.
     fn answers(
         &self,
         sources: &[(usize, Source)],
         layout: Layout,
         terminal: &Terminal,
         width: Option<usize>,
-        began: Instant,
     ) -> Vec<Result<SceneResult, CliError>> {
         let progress = Progress::begin(sources.len(), terminal.progress());
-        let mut options = self.what.base();
-        options.deadline = self.what.level.time_limit.and_then(|limit| began.checked_add(limit));
+        let options = self.what.base();
         let is_table = !self.json && !terminal.is_quiet();
         sources
             .par_iter()

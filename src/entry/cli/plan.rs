@@ -10,7 +10,7 @@ use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::AnalysisArgs;
-use crate::mechanics::analysis::{Analysis, Options, Verdict};
+use crate::mechanics::analysis::Verdict;
 use crate::mechanics::scene::format::{SceneFile, parsed};
 use crate::mechanics::session::{PlanError, plan};
 use crate::pictures::output::file::Existing;
@@ -49,7 +49,9 @@ impl Plan {
         let mut file: SceneFile = parsed(&source.text()).map_err(|error| CliError::not_read(&name, error))?;
         file.tolerate(self.level.contact_tolerance);
         let options = self.level.options();
-        let planned = match plan(file, usize::from(self.robots), &options) {
+        let (robots, own) = (usize::from(self.robots), self.scene.clone());
+        let found = source::in_time(&self.level, move || source::isolated(&own, || plan(file, robots, &options)));
+        let planned = match found.map_err(|late| CliError::not_read(&name, late))?? {
             Ok(planned) => planned,
             Err(PlanError::SceneError(problems)) => return Err(CliError::Scene { name, problems }.into()),
             Err(why) => {
@@ -60,10 +62,6 @@ impl Plan {
             }
         };
         let written = planned.to_json();
-        let scene = planned.build().map_err(|problems| CliError::Scene { name: name.clone(), problems })?;
-        // Every frame of the written scene is analysed once more, with all its time.
-        let again = Options { deadline: None, ..options.only_verdict() };
-        let status = ExitStatus::from_analysis(&Analysis::with(scene, &again));
         match output {
             Some(path) => {
                 let existing = if self.force { Existing::Replace } else { Existing::Keep };
@@ -76,6 +74,6 @@ impl Plan {
             }
             None => terminal.print_bytes(written.as_bytes())?,
         }
-        Ok(status)
+        Ok(ExitStatus::Done)
     }
 }

@@ -88,7 +88,7 @@ impl Render {
         }
         match self.serve {
             Some(port) => preview::serve(self, port, scenes, terminal),
-            None => watch::repeat(|| self.watched(), terminal, || self.once(terminal)),
+            None => watch::repeat(|| self.watched(), terminal, || self.started().once(terminal)),
         }
     }
 
@@ -96,6 +96,13 @@ impl Render {
     fn watched(&self) -> Vec<PathBuf> {
         let style = self.draw.look.file().map(Path::to_path_buf);
         source::candidates(&self.scenes).into_iter().chain(style).collect()
+    }
+
+    /// Returns the same command with a time limit that counts from now.
+    fn started(&self) -> Render {
+        let mut render = self.clone();
+        render.draw.figure.level = self.draw.figure.level.started();
+        render
     }
 
     /// Draws all figures once: checks the options, reads the scenes, draws in parallel, and writes the files.

@@ -8,6 +8,7 @@ use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
+use crate::clock::Instant;
 use crate::entry::cli::error::CliError;
 use crate::entry::request::{AnalysisArgs, FrameChoice};
 use crate::mechanics::scene::{Scene, SceneError, isolate};
@@ -229,30 +230,41 @@ pub(crate) fn read_one(path: &Path, level: &AnalysisArgs) -> Result<Source, CliE
 /// problem of the scene `name`.
 ///
 /// # Errors
-/// Words that say that the time limit was reached. The work then goes on in a thread of its own, until the program ends.
+/// Words that say that the time limit was reached.
 pub(crate) fn read_in_time(
     name: &str,
     lines_before: usize,
     bytes: Vec<u8>,
     level: &AnalysisArgs,
 ) -> Result<Result<(Scene, Vec<u8>), SceneError>, String> {
-    let (own, level) = (name.to_owned(), level.clone());
-    let limit = level.time_limit;
-    let work = move || {
-        let read =
-            isolate(&own, || level.read_scene(lines_before, &bytes).map(|(scene, file)| (scene, file.into_owned())));
-        read.flatten()
-    };
-    let Some(limit) = limit else { return Ok(work()) };
+    let (own, own_level) = (name.to_owned(), level.clone());
+    in_time(level, move || {
+        let read = || own_level.read_scene(lines_before, &bytes).map(|(scene, file)| (scene, file.into_owned()));
+        isolate(&own, read).flatten()
+    })
+}
+
+/// Does work that keeps no time limit itself, in a thread of its own if there is a limit.
+///
+/// # Errors
+/// Words that say that the time limit was reached. The work then goes on until the program ends.
+pub(crate) fn in_time<R: Send + 'static>(
+    level: &AnalysisArgs,
+    work: impl FnOnce() -> R + Send + 'static,
+) -> Result<R, String> {
+    let Some(limit) = level.time_limit else { return Ok(work()) };
     let (done, result) = channel();
-    thread::spawn(move || {
-        // Nobody receives the scene after the time limit.
-        let _ = done.send(work());
-    });
-    let most = limit.saturating_add(GRACE);
+    let end = limit.end().and_then(|end| end.checked_add(GRACE));
+    let left = end.map_or(Duration::MAX, |end| end.saturating_duration_since(Instant::now()));
+    if !left.is_zero() {
+        thread::spawn(move || {
+            // Nobody receives the scene after the time limit.
+            let _ = done.send(work());
+        });
+    }
     result
-        .recv_timeout(most)
-        .map_err(|_| format!("the time limit of {limit:?} was reached while the scene was checked"))
+        .recv_timeout(left)
+        .map_err(|_| format!("the time limit of {:?} was reached while the scene was checked", limit.given))
 }
 
 /// Runs `work` for one scene file. A panic in `work` becomes an error of this file.

@@ -98,8 +98,9 @@ pub(super) fn serve(
 impl Preview<'_> {
     /// Draws the output again if there is one, and tells the pages that files were saved.
     fn saved(&self) -> Result<ExitStatus, Vec<CliError>> {
-        let level = &self.render.draw.figure.level;
-        let read = |scene: &PathBuf| source::read(std::slice::from_ref(scene), self.render.frame, level);
+        let render = self.render.started();
+        let level = &render.draw.figure.level;
+        let read = |scene: &PathBuf| source::read(std::slice::from_ref(scene), render.frame, level);
         let scenes = source::files(&self.render.scenes)?;
         let read: Vec<Result<_, Vec<CliError>>> = scenes.iter().map(read).collect();
         let mut state = self.state();
@@ -113,7 +114,7 @@ impl Preview<'_> {
         drop(state);
         self.changed.notify_all();
         if self.render.output.is_some() {
-            return self.render.once(self.terminal);
+            return render.once(self.terminal);
         }
         let problems: Vec<CliError> = read.into_iter().filter_map(Result::err).flatten().collect();
         if problems.is_empty() { Ok(ExitStatus::Done) } else { Err(problems) }
@@ -210,7 +211,7 @@ impl Preview<'_> {
     /// Returns the scene with this number, the command with the kind and the theme, and what drawing needs.
     fn prepared(&self, [scene, kind, theme]: [&str; 3]) -> Result<(PathBuf, Render, Options, Fonts), CliError> {
         let scene = scene.parse().ok().and_then(|number: usize| self.state().scenes.get(number).cloned());
-        let mut render = self.render.clone();
+        let mut render = self.render.started();
         render.draw.figure.kind = Kind::from_name(kind).unwrap_or(render.draw.figure.kind);
         let theme = ThemeChoice::all().into_iter().find(|choice| choice.word() == theme);
         render.draw.look.theme = theme.or(render.draw.look.theme);
