@@ -11,6 +11,7 @@ mod circle;
 mod crossing;
 mod edge;
 mod hull;
+mod trapezoids;
 mod overlap;
 mod polygon;
 mod compensated_sum;

@@ -1,6 +1,6 @@
 //! [`overlap`]: computes the area, the centroid and the depth of the intersection of two polygons.
 //!
-//! Each polygon is cut into convex pieces by ear clipping. Two convex pieces are disjoint if a side of one of them
+//! Each polygon is cut into convex pieces by ear clipping, or into trapezoids if it has very many corners. Two convex pieces are disjoint if a side of one of them
 //! separates them. Otherwise their depth is the smallest distance by which one piece must move, perpendicular to a
 //! side, until it leaves the other (separating-axis test). The area comes from clipping one piece by the other
 //! (Sutherland and Hodgman 1974). References: Ericson, Real-Time Collision Detection, 2005, §4.4 and §5.2; Held, FIST,
@@ -14,13 +14,14 @@ use std::ops::{Add, Sub};
 use std::sync::OnceLock;
 
 use super::box_index::across_longest;
+use super::trapezoids::trapezoids;
 use super::{Aabb, Bounds, BoxIndex, Point, Polygon, Vector, convex_hull, cross, quarter_turn};
 
 /// A polygon that is cut into convex pieces when they are first needed: the polygon itself if it is convex, otherwise
-/// triangles.
+/// triangles, or trapezoids if it has very many corners.
 ///
-/// Ear clipping of an outline with a million corners takes minutes. Most bodies only touch other bodies. Then the
-/// bounds or the convex hulls of the two bodies are often enough to exclude an overlap, and no pieces are needed.
+/// Most bodies only touch other bodies. Then the bounds or the convex hulls of the two bodies are often enough to exclude
+/// an overlap, and no pieces are needed.
 #[derive(Clone, Debug)]
 pub struct ConvexPieces<'p> {
     polygon: &'p Polygon,
@@ -30,7 +31,8 @@ pub struct ConvexPieces<'p> {
 }
 
 /// If the outlines of both polygons together have at most this number of corners, their hulls are not computed, because
-/// ear clipping is fast.
+/// ear clipping is fast. A polygon with more corners is cut into trapezoids, because the time of ear clipping grows with
+/// the square of their number.
 const FEW_CORNERS: usize = 2000;
 
 /// If the hull with fewer sides has more sides than this, the hulls are not compared, because the time grows with the
@@ -148,13 +150,16 @@ impl<'p> ConvexPieces<'p> {
 }
 
 impl<'p> Piece<'p> {
-    /// Divides a polygon into convex pieces: one piece if the polygon is convex, otherwise triangles.
+    /// Divides a polygon into convex pieces: one piece if the polygon is convex, otherwise triangles or trapezoids.
     fn all_of(polygon: &'p Polygon) -> Vec<Piece<'p>> {
         if polygon.is_convex() {
             let whole = Piece::new(Cow::Borrowed(polygon.outline()));
             return whole.into_iter().collect();
         }
         let points: Vec<Point> = polygon.rings().iter().flatten().copied().collect();
+        if let Some(pieces) = (points.len() > FEW_CORNERS).then(|| trapezoids(polygon.rings())).flatten() {
+            return pieces.into_iter().filter_map(|piece| Piece::new(Cow::Owned(piece))).collect();
+        }
         // Use coordinates relative to a corner for the ear clipping. Far from the origin, differences between products
         // of absolute coordinates would lose digits.
         let base = points[0];

@@ -255,6 +255,18 @@ fn combs(teeth: i32, reach: i32) -> String {
     json!({ "drystone": 1, "ground": [{ "polygon": lower }], "blocks": [{ "polygon": upper }] }).to_string()
 }
 
+/// Two combs that fit each other, with teeth so long and inclined that each of their boxes meets all others.
+fn slanted_combs(teeth: i32) -> String {
+    let (mut lower, mut upper, end) = (Vec::new(), Vec::new(), 4 * teeth);
+    for x in (0..teeth).map(|k| 4 * k) {
+        lower.extend([[x, 0], [x + end, end], [x + 2 + end, end], [x + 2, 0]]);
+        upper.extend([[x + 2 + end, end], [x + 2, 0], [x + 4, 0], [x + 4 + end, end]]);
+    }
+    lower.extend([[end, 0], [end, -1], [0, -1]]);
+    upper.extend([[2 * end + 2, end], [2 * end + 2, end + 1], [end + 2, end + 1]]);
+    json!({ "drystone": 1, "ground": [{ "polygon": lower }], "blocks": [{ "polygon": upper }] }).to_string()
+}
+
 /// Two combs whose teeth cross: every tooth of one overlaps every tooth of the other.
 fn crossed_combs(teeth: i32) -> String {
     let mut comb = Vec::new();
@@ -319,6 +331,7 @@ fn memory_grows_with_the_length_of_a_file() {
         ("held.json", scene(floor(1), row(1), json!({ "robots": robots, "steps": held })), too_many),
         ("idle.json", scene(floor(1), row(100), json!({ "steps": idle })), ""),
         ("combs.json", combs(1500, 0), ""),
+        ("slanted.json", slanted_combs(1500), ""),
         ("deep.json", combs(1500, 1), "overlap by 1 m, with a common area of 15000 m²"),
         ("crossed.json", crossed_combs(1500), "with a common area of at least"),
     ];

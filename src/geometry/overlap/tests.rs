@@ -167,3 +167,40 @@ fn an_outline_with_many_corners_overlaps_what_reaches_into_it() {
     let found = both(&round, &inside);
     assert!(found.depth > 1e-3 && found.area > 1.0, "{found:?}");
 }
+
+/// A comb whose teeth lean by twice their height, with a hole in its back.
+fn comb(teeth: i32) -> Polygon {
+    let mut corners = Vec::new();
+    for x in (0..teeth).map(|k| f64::from(4 * k)) {
+        corners.extend([[x, 0.0], [x + 20.0, 10.0], [x + 22.0, 10.0], [x + 2.0, 0.0]]);
+    }
+    let end = f64::from(4 * teeth);
+    corners.extend([[end, 0.0], [end, -3.0], [0.0, -3.0]]);
+    let [outline, hole] = [&corners[..], &[[1.0, -2.0], [2.0, -2.0], [2.0, -1.0], [1.0, -1.0]]]
+        .map(|ring| ring.iter().map(|p| Point::new(p[0], p[1])).collect());
+    Polygon::new(outline, vec![hole]).expect("a valid polygon")
+}
+
+/// Trapezoids cover a polygon once, and an overlap with them has the area that triangles give.
+#[test]
+fn a_polygon_of_very_many_corners_is_cut_into_trapezoids() {
+    for teeth in [3, 600] {
+        let comb = comb(teeth);
+        let pieces = trapezoids(comb.rings()).expect("a simple polygon");
+        let area = |corners: &[Point]| {
+            corners.windows(2).map(|side| cross(side[0] - corners[0], side[1] - corners[0]) / 2.0).sum::<f64>()
+        };
+        let total: f64 = pieces.iter().map(|piece| area(piece)).sum();
+        let wanted = 20.0 * f64::from(teeth) + 12.0 * f64::from(teeth) - 1.0;
+        assert!((total - wanted).abs() < 1e-9 * wanted && pieces.len() < 3 * comb.edges().count(), "{total}");
+        // Across one tooth at half its height, over the gap to the next, and in the back beside the hole.
+        let cut = |x: f64, y: f64, w: f64| {
+            overlap(&ConvexPieces::new(&comb), &ConvexPieces::new(&rectangle(x, y, w, 1.0)), 1e-9)
+        };
+        let found = cut(8.0, 4.0, 8.0).expect("overlap");
+        assert!((found.area - 4.0).abs() < 1e-9, "{found:?}");
+        assert_eq!(cut(1.0, -2.0, 1.0), None);
+        let back = cut(0.0, -2.0, 3.0).expect("overlap");
+        assert!((back.area - 2.0).abs() < 1e-9 && (back.depth - 1.0).abs() < 1e-9, "{back:?}");
+    }
+}

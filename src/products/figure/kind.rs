@@ -26,7 +26,7 @@ use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::{self, Analysis, MarginKinds};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 use crate::mechanics::analysis::{CapacityRequest, MarginKind, Sensitivity};
-use crate::mechanics::scene::Scene;
+use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::style::ForceMarks;
 
 /// The largest number of placed blocks of all frames for which all margins are cheap, and for which the factor on the
@@ -34,13 +34,17 @@ use crate::pictures::drawing::style::ForceMarks;
 /// machine.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 const MAX_MARGIN_BLOCKS: [usize; 2] = [60, 140];
+/// So many corners, each of which may touch other blocks, count as one more block.
+#[cfg(any(feature = "cli", feature = "wasm"))]
+const CORNERS_OF_A_BLOCK: usize = 200;
 
 /// Returns the margins that a figure or a table computes without being asked: other margins of many blocks would take
 /// far longer than the verdicts. Returns `None` if there are none.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) fn cheap_margins(scene: &Scene) -> Option<MarginKinds> {
     let [all, main] = MAX_MARGIN_BLOCKS;
-    match scene.frames.iter().map(|frame| frame.placed.len()).sum::<usize>() {
+    let size = |block: &BlockId| 1 + scene.blocks[block.0].body.polygon.outline().len() / CORNERS_OF_A_BLOCK;
+    match scene.frames.iter().flat_map(|frame| &frame.placed).map(size).sum::<usize>() {
         count if count <= all => Some(MarginKinds::ALL),
         count if count <= main => Some(MarginKinds::new(&[MarginKind::LoadFactor, MarginKind::Tilt])),
         // The factor on the loads of one frame takes about as long as one or two verdicts, whatever the number of

@@ -1,7 +1,7 @@
 //! Finds the edge interfaces of scenes in which not all bodies consist of lattice cells: edges of two bodies that face
 //! each other within the contact tolerance.
 //!
-//! 1. A bounding-volume hierarchy over position and direction returns the pairs of edges that may face each other.
+//! 1. A bounding-volume hierarchy over position, direction and offset returns the pairs of edges that may face each other.
 //! 2. [`compare`] decides for each pair: common segment, too short, or apart.
 //! 3. Segments of the same two bodies that continue each other are joined ([`join`](super::join)).
 //! 4. Gaps that a stone keeps open are found ([`pinned`](super::pinned)).
@@ -56,28 +56,35 @@ struct Side {
 }
 
 impl Side {
-    /// Returns the bounding box of the edge in x, y and direction.
+    /// Returns the bounding box of the edge in x, y, direction, and the distance of its line from `origin`, which is
+    /// positive to the left of the origin.
     ///
-    /// The range of directions is wide enough for each edge that may face this one within the smaller angle tolerance
-    /// of the two edges. Without the direction, the box of a thin inclined stone of an arch overlaps hundreds of
-    /// others. With the direction, the box overlaps only a few, because each joint has a different direction.
-    fn bounds(&self) -> Aabb<3> {
+    /// The ranges of directions and distances are wide enough for each edge that may face this one within the smaller
+    /// angle tolerance of the two edges. Without the direction, the box of a thin inclined stone of an arch overlaps
+    /// hundreds of others. With the direction, the box overlaps only a few, because each joint has a different direction.
+    /// Without the distance, the boxes of the parallel teeth of a comb overlap if the teeth are inclined.
+    fn bounds(&self, origin: Point) -> Aabb<4> {
         let along = self.edge.vector();
-        let angle = (2.0 * self.search_distance / along.norm()).clamp(PARALLEL_TOL, Tolerance::MAX_ANGLE);
+        let length = along.norm();
+        let angle = (2.0 * self.search_distance / length).clamp(PARALLEL_TOL, Tolerance::MAX_ANGLE);
         // Add a thousandth, because `compare` tests the sine, which is slightly smaller than the angle. `direction`
         // changes by at most 1 per radian.
         let angle = 1.001 * angle;
         let (position, direction) = (self.edge.bounds(), direction(along));
+        let ends = [self.edge.from, self.edge.to].map(|end| end - origin);
+        let distance = cross(along, ends[0]) / length;
+        let turned = self.search_distance + angle * ends[0].norm().max(ends[1].norm());
         Aabb {
-            min: [position.min[0], position.min[1], direction - angle],
-            max: [position.max[0], position.max[1], direction + angle],
+            min: [position.min[0], position.min[1], direction - angle, distance - turned],
+            max: [position.max[0], position.max[1], direction + angle, distance + turned],
         }
     }
 
     /// Returns the query boxes for edges that face this edge: edges of the opposite direction within the search
     /// distance. Directions are periodic, so two boxes are needed near 0 and [`FULL_TURN`].
-    fn facing(&self) -> impl Iterator<Item = Aabb<3>> {
-        let mut bounds = self.bounds();
+    fn facing(&self, origin: Point) -> impl Iterator<Item = Aabb<4>> {
+        let mut bounds = self.bounds(origin);
+        (bounds.min[3], bounds.max[3]) = (-bounds.max[3], -bounds.min[3]);
         for d in 0..2 {
             bounds.min[d] -= self.search_distance;
             bounds.max[d] += self.search_distance;
@@ -89,7 +96,7 @@ impl Side {
             turned
         });
         let margin = 2.0 * Tolerance::MAX_ANGLE;
-        let is_needed = move |bounds: &Aabb<3>| bounds.max[2] >= -margin && bounds.min[2] <= FULL_TURN + margin;
+        let is_needed = move |bounds: &Aabb<4>| bounds.max[2] >= -margin && bounds.min[2] <= FULL_TURN + margin;
         opposite.into_iter().filter(is_needed)
     }
 }
@@ -122,11 +129,12 @@ type Pair = ([BodyId; 2], [usize; 2], Relation);
 /// Finds all edge interfaces of a scene, and the edges that are nearly interfaces.
 pub(super) fn find(scene: &Scene) -> Interfaces {
     let (sides, smallest) = sides(scene);
-    let index = BoxIndex::new(sides, Side::bounds);
+    let origin = sides.first().map_or(Point::origin(), |side| side.edge.from);
+    let index = BoxIndex::new(sides, |side| side.bounds(origin));
     let mut pairs: Vec<Pair> = Vec::with_capacity(2 * scene.blocks.len());
     let sides = index.all().map(|(_, side)| side);
     for a in sides.filter(|a| matches!(a.body, BodyId::Block(_))) {
-        for b in a.facing().flat_map(|query| index.intersecting(query)) {
+        for b in a.facing(origin).flat_map(|query| index.intersecting(query)) {
             let Some(bodies) = ordered(a.body, b.body).filter(|p| p[0] == a.body && a.body != b.body) else {
                 continue;
             };
@@ -144,19 +152,23 @@ pub(super) fn find(scene: &Scene) -> Interfaces {
 fn sides(scene: &Scene) -> (Vec<Side>, f64) {
     let count = |body: BodyId| (scene.body(body).polygon.rings().iter()).map(Vec::len).sum::<usize>();
     let mut sides: Vec<Side> = Vec::with_capacity(bodies(scene).map(count).sum());
-    let mut smallest = f64::INFINITY;
+    let (mut smallest, mut farthest) = (f64::INFINITY, 0.0_f64);
     for body in bodies(scene) {
         let (polygon, gap) = (&scene.body(body).polygon, scene.body(body).gap);
         let search_distance = match body {
             BodyId::Block(_) => {
                 let size = size(polygon);
                 smallest = smallest.min(size);
-                (MAX_GAP_PER_SIZE * size).max(gap)
+                let distance = (MAX_GAP_PER_SIZE * size).max(gap);
+                farthest = farthest.max(distance);
+                distance
             }
             BodyId::Ground(_) => f64::INFINITY,
         };
         sides.extend((polygon.edges().enumerate()).map(|(number, edge)| Side { body, number, edge, search_distance }));
     }
+    // Of a block and the ground, the distance of the block counts.
+    sides.iter_mut().for_each(|side| side.search_distance = side.search_distance.min(farthest));
     (sides, smallest)
 }
 
@@ -172,7 +184,7 @@ struct Collection {
 }
 
 /// Converts pairs of edges to interfaces, near misses and slivers. Pairs of the same two bodies must be consecutive.
-fn collect(scene: &Scene, pairs: Vec<Pair>, sides: &BoxIndex<Side, 3>, smallest: f64) -> Interfaces {
+fn collect(scene: &Scene, pairs: Vec<Pair>, sides: &BoxIndex<Side, 4>, smallest: f64) -> Interfaces {
     let mut found = Collection::default();
     found.interfaces.reserve(pairs.len());
     let mut pairs = pairs.into_iter().peekable();
@@ -258,7 +270,7 @@ fn touching_points(
     scene: &Scene,
     bodies: [BodyId; 2],
     interfaces: &[Interface],
-    sides: &BoxIndex<Side, 3>,
+    sides: &BoxIndex<Side, 4>,
 ) -> Vec<Point> {
     if !interfaces.is_empty() {
         return interfaces.iter().flat_map(|i| i.ends).collect();
@@ -268,11 +280,12 @@ fn touching_points(
 
 /// Returns the only point at which corners of the first body touch the second. `None` if no corner touches, or if
 /// corners touch at different points.
-fn only_touching_corner(scene: &Scene, bodies: [BodyId; 2], sides: &BoxIndex<Side, 3>) -> Option<Point> {
+fn only_touching_corner(scene: &Scene, bodies: [BodyId; 2], sides: &BoxIndex<Side, 4>) -> Option<Point> {
     let gap = scene.tolerance_between(bodies[0], bodies[1]).gap;
     let touches = |at: &Point| {
-        // The range of directions in this query covers a full turn, so edges of any direction are found.
-        let query = Aabb { min: [at.x - gap, at.y - gap, -FULL_TURN], max: [at.x + gap, at.y + gap, 2.0 * FULL_TURN] };
+        // Edges of any direction are found.
+        let any = f64::INFINITY;
+        let query = Aabb { min: [at.x - gap, at.y - gap, -any, -any], max: [at.x + gap, at.y + gap, any, any] };
         let candidates = sides.intersecting(query);
         let mut candidates = candidates.filter(|side| side.body == bodies[1]);
         candidates.any(|side| {
