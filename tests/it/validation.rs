@@ -3,7 +3,7 @@
 //! computed values.
 
 pub mod arches;
-mod blocks;
+pub mod blocks;
 mod cases;
 mod measure;
 mod panels;

@@ -59,13 +59,18 @@ impl<'a> Fall<'a> {
 
     /// A motion of a frame under other loads.
     pub fn with(analysis: &'a Analysis, frame: usize, motions: &[Motion]) -> Fall<'a> {
+        Fall::with_friction(analysis, frame, motions, None)
+    }
+
+    /// A motion of a frame under other loads, and with another friction coefficient at all joints.
+    pub fn with_friction(analysis: &'a Analysis, frame: usize, motions: &[Motion], friction: Option<f64>) -> Fall<'a> {
         let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         let mut by_block = vec![None; scene.blocks.len()];
         for motion in motions {
             by_block[motion.block.0] = Some(*motion);
         }
         let mut fall = Fall { scene, frame, found, joints: Vec::new(), motions: by_block };
-        fall.joints = fall.found_joints();
+        fall.joints = fall.found_joints(friction);
         fall
     }
 
@@ -132,7 +137,7 @@ impl<'a> Fall<'a> {
         a - b
     }
 
-    fn found_joints(&self) -> Vec<Joint> {
+    fn found_joints(&self, friction: Option<f64>) -> Vec<Joint> {
         let contacts = &self.found.contacts;
         let relative = |contact: &Contact| contact.application_points.map(|at| self.relative(contact, at));
         let speeds = contacts.iter().flat_map(relative).map(|v| v.norm());
@@ -144,7 +149,8 @@ impl<'a> Fall<'a> {
         let one = |(number, contact): (usize, &Contact)| {
             let [a, b] = contact.interface.bodies;
             let turning = (spin(a) - spin(b)).abs() * self.found.length;
-            Some(Joint { contact: number, ..joint(contact, relative(contact), turning, noise)? })
+            let friction = friction.unwrap_or(contact.interface.friction);
+            Some(Joint { contact: number, ..joint(contact, relative(contact), (turning, friction), noise)? })
         };
         contacts.iter().enumerate().filter_map(one).collect()
     }
@@ -152,16 +158,16 @@ impl<'a> Fall<'a> {
 
 /// Classifies the relative motion at a contact; `None` if the two bodies move together. `relative` contains the
 /// relative velocities at the two application points. `turning` is the magnitude of the relative spin times the length
-/// scale of the frame, so that it is a speed. Speeds up to `noise` count as zero. The caller sets the contact index of
-/// the result.
-fn joint(contact: &Contact, relative: [Vector; 2], turning: f64, noise: f64) -> Option<Joint> {
+/// scale of the frame, so that it is a speed, and stands before the friction coefficient. Speeds up to `noise` count as
+/// zero. The caller sets the contact index of the result.
+fn joint(contact: &Contact, relative: [Vector; 2], (turning, friction): (f64, f64), noise: f64) -> Option<Joint> {
     let interface = &contact.interface;
     let along = relative.map(|v| v.dot(&interface.tangent()));
     let opening = relative.map(|v| v.dot(&interface.normal));
     // An end of the interface stays in contact if it does not open, or if it opens at μ times its sliding speed
     // (dilation).
     let touches = [0, 1].map(|k| {
-        let free = opening[k] - interface.friction * along[k].abs();
+        let free = opening[k] - friction * along[k].abs();
         opening[k] <= noise || free.abs() <= noise
     });
     let points = contact.application_points;

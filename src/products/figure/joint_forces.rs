@@ -21,7 +21,7 @@ use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis, Motion};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::pictures::drawing::difference::lightness;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
-use crate::products::wording::margin::governing;
+use crate::products::wording::margin::{Governing, governing};
 
 /// A force below this share of the largest is numerical noise and has no mark.
 const NOISE: f64 = 1e-6;
@@ -417,7 +417,7 @@ pub(crate) fn collapse(canvas: &mut Canvas<'_>) {
     let governing = governing(canvas.scene(), canvas.number, found);
     // The marks of a frame that stands belong to the margin that the line names first.
     let at = if governing.at.is_empty() { String::new() } else { format!(" at {}", governing.at) };
-    let joints = giving(canvas.scene(), found, governing.mechanism);
+    let joints = giving(canvas.scene(), found, &governing);
     if joints.len() <= MAX_COLLAPSE_MARKS {
         // A force is longer than a ring is wide, so the force still shows on both sides of the ring.
         gives::draw(canvas, Layer::Symbol, &joints, [format!("hinge{at}"), format!("slides{at}")]);
@@ -426,7 +426,8 @@ pub(crate) fn collapse(canvas: &mut Canvas<'_>) {
 
 /// Returns the hinges and slips of a mechanism. A joint end that opens no faster than friction requires is closed: speeds
 /// under 2 % of the largest count as 0, and speeds over 6 % as motion.
-fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, mechanism: &[Motion]) -> Vec<Gives<'a>> {
+fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, governing: &Governing<'_>) -> Vec<Gives<'a>> {
+    let mechanism = governing.mechanism;
     let fastest = mechanism.iter().map(|motion| motion.fastest(scene)).fold(0.0, f64::max);
     let (zero, moves) = (0.02 * fastest, 0.06 * fastest);
     let motions: BTreeMap<BodyId, &Motion> = mechanism.iter().map(|m| (BodyId::Block(m.block), m)).collect();
@@ -440,7 +441,8 @@ fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, mechanism: &[Motion]) -> 
         let [a, b] = interface.bodies;
         let relative = interface.ends.map(|end| velocity(a, end) - velocity(b, end));
         let slide = relative.map(|v| v.dot(&interface.tangent()));
-        let opening = [0, 1].map(|k| relative[k].dot(&interface.normal) - interface.friction * slide[k].abs());
+        let friction = governing.friction.unwrap_or(interface.friction);
+        let opening = [0, 1].map(|k| relative[k].dot(&interface.normal) - friction * slide[k].abs());
         let closed = opening.map(|speed| speed.abs() < zero);
         let opens = opening.map(|speed| speed > moves);
         let how = match (closed, opens) {

@@ -378,7 +378,7 @@ fn disc(canvas: &mut Canvas<'_>, hold: &Hold) {
     let (scene, edge) = (canvas.scene(), Stroke::new(canvas.theme().ink, canvas.mm(0.22)));
     let block = canvas.camera.rect(scene.blocks[hold.block.0].body.polygon.bounds());
     // A large disc hides a small block.
-    let radius = canvas.mm(1.35).min((0.3 * block.width.min(block.height)).max(canvas.mm(0.5)));
+    let radius = (0.45 * block.width.min(block.height)).clamp(canvas.mm(0.9), canvas.mm(1.35));
     let outline = Outline::circle(canvas.place_on(BodyId::Block(hold.block), hold.at), radius);
     let disc = Path::filled(outline, canvas.theme().robot(hold.robot.0)).with_stroke(edge);
     let title = format!("Robot {} holds block {}", scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id);

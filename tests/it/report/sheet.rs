@@ -81,3 +81,28 @@ fn the_inputs_are_those_that_the_author_gave() {
         assert!(page.contains(words), "{words}: {page}");
     }
 }
+
+/// The collapse at the least friction slides with this friction, not with the present one.
+#[test]
+fn a_ladder_has_a_table_of_the_joints_that_slide_at_its_least_friction() {
+    let folder = Folder::new(&[("a.json", &crate::validation::blocks::ladder().to_string())]);
+    folder.done("report a.json -o a.md");
+    let page = folder.text("a.md");
+    assert!(page.contains("beyond, 1 block moves, with 2 sliding and tipping joints."), "{page}");
+    assert_eq!(page.matches("| slides and tips |").count(), 2, "{page}");
+}
+
+#[test]
+fn a_sheet_of_many_loads_has_two_pages() {
+    let load = |number: usize| format!(r#"{{ "block": "a", "at": [0, {number}e-1], "force": [9{number}, -50] }}"#);
+    let loads: Vec<String> = (1..9).map(load).collect();
+    let text = format!(
+        r#"{{ "drystone": 1, "density": 2400, "ground": [{{ "polygon": [[-1, -1], [3, -1], [3, 0], [-1, 0]] }}],
+        "blocks": [{{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 2], [0, 2]] }}], "loads": [{}] }}"#,
+        loads.join(",")
+    );
+    let folder = Folder::new(&[("a.json", &text)]);
+    folder.done("report a.json -o a.pdf");
+    let pdf = std::fs::read(folder.path("a.pdf")).expect("written");
+    assert_eq!(String::from_utf8_lossy(&pdf).matches("/Type/Page/").count(), 2);
+}

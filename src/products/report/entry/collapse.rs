@@ -21,6 +21,8 @@ pub(super) struct Collapse {
     toward: Option<Toward>,
     /// The margin in words: `carries 2.8 × its loads`. Empty for a frame that falls.
     margin: String,
+    /// The friction coefficient of all joints in this collapse, if it is not the present one.
+    friction: Option<f64>,
 }
 
 impl Collapse {
@@ -45,9 +47,10 @@ impl Collapse {
                 }
             }
         };
+        let friction = governing.friction.filter(|_| toward.is_none());
         let margin = governing.parameter.and(governing.words.into_iter().next());
         let margin = margin.unwrap_or_default();
-        (!mechanism.is_empty()).then_some(Collapse { mechanism, toward, margin })
+        (!mechanism.is_empty()).then_some(Collapse { mechanism, toward, margin, friction })
     }
 
     /// Returns the kind of the figure that shows the collapse, with the parameter that it varies.
@@ -60,7 +63,7 @@ impl Collapse {
 
     /// Describes the collapse: `It carries 2.8 × its loads; beyond, 7 blocks move, with 4 hinges.`
     pub fn words(&self, analysis: &Analysis, number: usize) -> String {
-        let fall = Fall::with(analysis, number, &self.mechanism);
+        let fall = Fall::with_friction(analysis, number, &self.mechanism, self.friction);
         let moving = fall.moving().count();
         let moves = if moving == 1 { "moves" } else { "move" };
         let given = self.joints(&fall);
@@ -94,7 +97,7 @@ impl Collapse {
     pub fn table(&self, analysis: &Analysis, number: usize) -> (Grid, String) {
         let (scene, found) = (analysis.scene_of(number), &analysis.frames[number]);
         let stands = found.verdict == Verdict::Stable;
-        let fall = Fall::with(analysis, number, &self.mechanism);
+        let fall = Fall::with_friction(analysis, number, &self.mechanism, self.friction);
         // How far each joint is from acting: 0 if it acts with the listed forces, 1 if it is as far as possible.
         let away = |joint: &Joint| {
             let contact = &found.contacts[joint.contact];

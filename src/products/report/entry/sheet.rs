@@ -25,6 +25,8 @@ const OUTLINE_HEIGHT: f64 = 230.0;
 const FIGURE_WIDTH: f64 = 440.0;
 /// Height of the picture in a figure, in pixels.
 const FIGURE_HEIGHT: f64 = 300.0;
+/// A table of more loads is as wide as the page.
+const MAX_NARROW_LOADS: usize = 3;
 
 /// Returns the options for figures in a report. The figures have no titles and no verdicts, because the page shows
 /// both.
@@ -87,7 +89,7 @@ pub(super) fn sheet(
         subject: Some((Kind::Structure, number)),
     });
     first.parts.push(SheetPart::Figures(outline.into_iter().collect()));
-    first.parts.push(given(scene, number, Units::new(scene, found)));
+    first.parts.extend(given(scene, number, Units::new(scene, found)));
     let mut titled = |heading: &str, grid: Grid, note: Option<String>| {
         if !grid.lines.is_empty() {
             first.parts.push(SheetPart::Heading(heading.to_owned()));
@@ -259,8 +261,8 @@ fn figures(
     figures
 }
 
-/// Makes two columns with the inputs of the frame with index `number`.
-fn given(scene: &Scene, number: usize, units: Units) -> SheetPart {
+/// Makes two columns with the inputs of the frame with index `number`, and below them a long table of loads.
+fn given(scene: &Scene, number: usize, units: Units) -> Vec<SheetPart> {
     let titled = |heading: &str, grid: Grid| {
         if grid.lines.is_empty() {
             Vec::new()
@@ -269,9 +271,19 @@ fn given(scene: &Scene, number: usize, units: Units) -> SheetPart {
         }
     };
     let mut left = titled("Materials", inputs::materials(scene, number, units));
-    left.extend(titled("Loads", inputs::loads(scene, number, units)));
+    let loads = inputs::loads(scene, number, units);
+    // In a narrow column, a row of loads has three lines.
+    let is_long = loads.lines.len() > MAX_NARROW_LOADS;
+    let loads = titled("Loads", loads);
+    let below = if is_long {
+        loads
+    } else {
+        left.extend(loads);
+        Vec::new()
+    };
     left.extend(titled("Robots", inputs::robots(scene, number)));
-    SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(scene, number))])
+    let columns = SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(scene, number))]);
+    std::iter::once(columns).chain(below).collect()
 }
 
 /// Makes the table of the margins and of the placement tolerance, each as a bar with numbers at both ends and the

@@ -16,6 +16,9 @@ use crate::products::wording::verdict::plain;
 use crate::text::line;
 use flow::{Flow, HEADING_HEIGHT, MARGIN, PAGE_SIZE, SMALL_TEXT_SIZE};
 
+/// A section begins below the rest of the section before if this rest is lower than this, pixels.
+const MAX_REST: f64 = 80.0;
+
 /// A page: a drawing of groups with roles, figures at positions, links to scenes and bookmarks.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Page {
@@ -68,7 +71,10 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
     flow.title(&title, &entry.details);
     for (number, section) in entry.sections.iter().enumerate() {
         if section.begins_page {
-            flow.new_page();
+            // A few lines that did not fit on the page before do not need a page of their own.
+            if flow.y > MARGIN + MAX_REST {
+                flow.new_page();
+            }
         } else if number > 0 && !section.title.is_empty() {
             // Begin a new page unless there is space for the heading and one row of pictures.
             flow.reserve(420.0);

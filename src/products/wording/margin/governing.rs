@@ -23,6 +23,8 @@ pub struct Governing<'a> {
     pub at: &'static str,
     /// The collapse just beyond the first margin; for a frame that falls, its own collapse. Empty if it is not known.
     pub mechanism: &'a [Motion],
+    /// The friction coefficient of all joints at which this collapse happens, if it is not the present one.
+    pub friction: Option<f64>,
 }
 
 /// Returns the headline margin of a frame in words, followed by its tilt and its friction if they say more. The list is
@@ -63,9 +65,10 @@ fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governin
         };
         governing.parameter.get_or_insert(margin.parameter);
         if governing.words.is_empty()
-            && let Some(End::At { mechanism, .. }) = end
+            && let Some(End::At { mechanism, value }) = end
         {
             governing.mechanism = mechanism;
+            governing.friction = (margin.parameter == Parameter::Friction).then_some(*value);
             governing.at = match margin.parameter {
                 Parameter::LoadFactor => "this load",
                 Parameter::Tilt => "this tilt",

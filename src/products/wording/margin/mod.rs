@@ -8,9 +8,9 @@ mod governing;
 mod list;
 mod range;
 
-pub use governing::governing;
 #[cfg(any(feature = "report", feature = "cli"))]
 pub use governing::headline;
+pub use governing::{Governing, governing};
 pub use list::stated;
 pub use range::stands;
 
