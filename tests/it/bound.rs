@@ -92,6 +92,18 @@ fn equal_outlines() {
 }
 
 #[test]
+fn very_many_circles_and_corners_of_curves() {
+    let mut circles = String::new();
+    for i in 0..19_000 {
+        let _ = write!(circles, r#"<circle cx="{}" r="1"/>"#, 3 * i);
+    }
+    let ran = run("circles.svg", &svg(&circles), "import circles.svg -q -o circles.json");
+    assert_eq!(ran.code, Some(0), "{}", ran.messages);
+    let path = format!(r#"<path d="M0 0{}z"/>"#, "a1e7 1e7 0 1 1 1 0".repeat(40_000));
+    refused("arcs.svg", &svg(&path), "import arcs.svg", "corners with chords for curves; the limit is 1000000");
+}
+
+#[test]
 fn one_id_for_all_elements_and_very_many_classes() {
     let mut body = String::new();
     for i in 0..9_000 {
@@ -108,6 +120,12 @@ fn one_id_for_all_elements_and_very_many_classes() {
         let _ = write!(body, r#"<rect class="c{i}" x="{}" width="4" height="4"/>"#, 5 * i);
     }
     refused("classes.svg", &svg(&body), "import classes.svg", "14000 style rules and 14002 elements");
+    // Each part of the selector stands for any ancestor.
+    let selector = format!("z{} .a", " g".repeat(12));
+    let groups = ["<g>", "</g>"].map(|tag| tag.repeat(40));
+    let rect = r#"<rect class="a" width="1" height="1"/>"#;
+    let body = format!("<style>{selector}{{fill:red}}</style>{}{rect}{}", groups[0], groups[1]);
+    refused("selector.svg", &svg(&body), "import selector.svg", "1 style rules and 43 elements");
 }
 
 #[test]

@@ -6,11 +6,14 @@
 //! structure. Such drawings are refused before the comparisons begin.
 
 use super::Remark;
+use super::draft::{Draft, Part, PartGeometry};
 use crate::geometry::Bounds;
 use crate::geometry::snap::Corner;
 
 /// The largest number of outlines, copies included.
 pub(super) const MAX_BODIES: usize = 20_000;
+/// The largest number of corners of all outlines after chords have replaced their curves.
+const MAX_CORNERS: f64 = 1e6;
 /// The largest number of pairs with overlapping bounding boxes is `MAX_PAIRS`, plus `MAX_PAIRS_PER_BODY` for each
 /// outline. In an arch, for example, the box of each voussoir overlaps those of a few neighbours.
 const MAX_PAIRS: usize = 100_000;
@@ -43,6 +46,22 @@ pub(super) fn too_many(count: usize) -> Remark {
         message: format!("the drawing has at least {count} outlines, copies included; the limit is {MAX_BODIES}"),
         help: "import a part of it, or give layers without blocks names that begin with ignore".into(),
     }
+}
+
+/// Returns a remark if the outlines, with chords at most `flatten` metres from their curves, have too many corners.
+pub(super) fn corners_problem(draft: &Draft, flatten: f64) -> Option<Remark> {
+    let of_part = |part: &Part| match &part.form {
+        PartGeometry::Subpaths(subpaths, _) => {
+            subpaths.iter().chain(&part.clips).map(|path| path.corners(flatten)).sum()
+        }
+        PartGeometry::Point(_) => 0.0,
+    };
+    let count: f64 = draft.parts.iter().map(of_part).sum();
+    (count > MAX_CORNERS).then(|| Remark {
+        element: String::new(),
+        message: format!("its outlines have {count} corners with chords for curves; the limit is {MAX_CORNERS}"),
+        help: "give a larger --flatten, or import a part of it".into(),
+    })
 }
 
 /// True if the search for the holes of one path would need too many comparisons.

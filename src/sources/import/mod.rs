@@ -358,6 +358,9 @@ fn build_scene(
     if draft.parts.iter().any(|p| matches!(&p.form, PartGeometry::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(|s| s.has_curves() && s.circle().is_none()))) {
         draft.notes.push(format!("curves are replaced by chords, at most {} m from the curve", scale::short(flatten)));
     }
+    if let Some(problem) = limit::corners_problem(&draft, flatten) {
+        return Err(DrawingProblems::of(vec![problem]));
+    }
     let title = std::mem::take(&mut draft.title);
     let mut outlines = Outlines::new(&mut draft, flatten, close);
     if let Err(why) = outlines.assign_roles(&mut draft, chosen, names) {

@@ -6,7 +6,7 @@ use super::draft::{Draft, Role};
 use super::name::Names;
 use super::outline::{Body, Outlines};
 use super::scale::short;
-use crate::geometry::{Bounds, Circle, Point, Polygon};
+use crate::geometry::{Aabb, Bounds, BoxIndex, Circle, Point, Polygon};
 use crate::mechanics::scene::format::{
     BlockEntry, CircleEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile,
 };
@@ -118,11 +118,18 @@ fn robots(outlines: &Outlines, names: &Names, draft: &mut Draft, round: &Roundin
 fn has_gaps(outlines: &Outlines, [least, most]: [f64; 2]) -> bool {
     let bodies: Vec<(Option<Circle>, Polygon)> =
         outlines.bodies.iter().filter_map(|body| Some((body.circle, body.polygon()?))).collect();
+    if bodies.iter().all(|(circle, _)| circle.is_none()) {
+        return false;
+    }
+    let around = |polygon: &Polygon| {
+        let Bounds { min, max } = polygon.bounds();
+        Aabb { min: [min.x, min.y], max: [max.x, max.y] }
+    };
+    let index = BoxIndex::new(bodies.iter().enumerate().collect(), |(_, (_, polygon))| around(polygon));
     bodies.iter().enumerate().any(|(i, (circle, _))| {
         let Some(circle) = circle else { return false };
-        let around = circle.polygon().bounds().grown(2.0 * most);
-        let others = bodies.iter().enumerate().filter(|(k, (_, other))| *k != i && around.intersects(other.bounds()));
-        let gaps = others.map(|(_, (round, polygon))| match round {
+        let near = index.intersecting(around(&circle.polygon()).grown(2.0 * most));
+        let gaps = near.filter(|(k, _)| *k != i).map(|(_, (round, polygon))| match round {
             Some(round) => round.distance(circle.centre) - circle.radius,
             None => -circle.depth_in(polygon),
         });

@@ -146,6 +146,12 @@ impl Subpath {
         points
     }
 
+    /// Returns the number of corners of the subpath if chords that are at most `tolerance` from its curves replace them.
+    pub(super) fn corners(&self, tolerance: f64) -> f64 {
+        let starts = [self.start].into_iter().chain(self.segments.iter().map(Segment::end));
+        starts.zip(&self.segments).map(|(from, segment)| segment.chords(from, tolerance)).sum()
+    }
+
     /// Replaces curves by chords that are at most `tolerance` from them, and returns the corners. If the last corner is
     /// at most `close` from the first, it is left out. Returns `None` if the subpath is open and its ends are
     /// farther apart than `close`.
@@ -177,18 +183,35 @@ impl Segment {
         }
     }
 
-    /// Returns the corners between the ends of a segment that begins at `from`. The chords between the corners are at
-    /// most `tolerance` from the curve.
-    fn inner(&self, from: Point, tolerance: f64) -> Vec<Point> {
+    /// Returns the number of chords, at most `tolerance` from the curve, that replace a segment that begins at `from`.
+    fn chords(&self, from: Point, tolerance: f64) -> f64 {
         match self {
-            Segment::Line(_) => Vec::new(),
+            Segment::Line(_) => 1.0,
             Segment::Cubic(a, b, to) => {
                 // A chord over 1/n of the parameter is at most |second derivative| / 8n² from the curve. The second
                 // derivative of a cubic is at most 6 times the larger second difference of its control points.
                 let bend = (a.coords * 2.0 - from.coords - b.coords)
                     .norm()
                     .max((b.coords * 2.0 - a.coords - to.coords).norm());
-                let n = steps((0.75 * bend / tolerance).sqrt());
+                steps((0.75 * bend / tolerance).sqrt())
+            }
+            Segment::Arc(arc) => {
+                let radius = largest_radius(arc.u, arc.v);
+                let half = if tolerance < radius { libm::acos(1.0 - tolerance / radius) } else { FRAC_PI_2 };
+                // A chord spans at most 45°, so that a circle has at least 8 corners at any tolerance.
+                let widest = (2.0 * half).min(TAU / 8.0);
+                steps((arc.sweep.abs() / widest) * (1.0 - 1e-9))
+            }
+        }
+    }
+
+    /// Returns the corners between the ends of a segment that begins at `from`. The chords between the corners are at
+    /// most `tolerance` from the curve.
+    fn inner(&self, from: Point, tolerance: f64) -> Vec<Point> {
+        let n = self.chords(from, tolerance);
+        match self {
+            Segment::Line(_) => Vec::new(),
+            Segment::Cubic(a, b, to) => {
                 let at = |k: f64| {
                     let (t, s) = (k / n, (n - k) / n);
                     Point::from(
@@ -200,11 +223,6 @@ impl Segment {
                 inner_steps(n).map(at).collect()
             }
             Segment::Arc(arc) => {
-                let radius = largest_radius(arc.u, arc.v);
-                let half = if tolerance < radius { libm::acos(1.0 - tolerance / radius) } else { FRAC_PI_2 };
-                // A chord spans at most 45°, so that a circle has at least 8 corners at any tolerance.
-                let widest = (2.0 * half).min(TAU / 8.0);
-                let n = steps((arc.sweep.abs() / widest) * (1.0 - 1e-9));
                 let at = |k: f64| {
                     let (sin, cos) = sin_cos(arc.from + arc.sweep * (k / n));
                     arc.centre + arc.u * cos + arc.v * sin

@@ -22,17 +22,17 @@ mod xml;
 use std::collections::BTreeMap;
 
 use roxmltree::{Document, Node, ParsingOptions};
-use simplecss::StyleSheet;
+use simplecss::{Rule, StyleSheet};
 
 use self::name::Lines;
-use self::walk::SvgWalk;
+use self::walk::{MAX_DEPTH, SvgWalk};
 use self::xml::{is, words};
 use super::draft::Draft;
 use super::limit::too_many;
 use super::naming::Naming;
 use super::scale::Scale;
 
-/// The largest number of comparisons of a style rule with an element.
+/// The largest number of comparisons of a part of the selector of a style rule with an element.
 const MAX_RULE_MATCHES: usize = 150_000_000;
 
 /// Reads an SVG into a draft in metres, with y up. `frame` selects a frame of a figure that drystone drew, counted from
@@ -51,14 +51,16 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
     let css = style_text(&document);
     let sheet = StyleSheet::parse(&css);
     let elements = document.descendants().filter(Node::is_element).count();
-    let rules = sheet.rules.len();
-    if rules.saturating_mul(elements) > MAX_RULE_MATCHES {
+    let of_element = comparisons(&sheet, &document);
+    if of_element.saturating_mul(elements) > MAX_RULE_MATCHES {
+        let rules = sheet.rules.len();
         return Err(format!(
             "its {rules} style rules and {elements} elements need too many comparisons; simplify its styles"
         ));
     }
     let mut walk = SvgWalk {
         sheet,
+        comparisons: of_element,
         naming,
         styled: 0,
         ids: ids(&document),
@@ -86,6 +88,19 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
         return Err(too_many(walk.draft.parts.len() + walk.more).message);
     }
     Ok(walk.draft)
+}
+
+/// Returns the largest number of comparisons of one element and the elements around it with the selectors of all rules.
+/// Each part of a selector that stands for any ancestor is compared with all of them, for each choice before it.
+fn comparisons(sheet: &StyleSheet<'_>, document: &Document<'_>) -> usize {
+    let depth = document.descendants().map(|node| node.ancestors().take(MAX_DEPTH).count()).max().unwrap_or(0);
+    let of_rule = |rule: &Rule<'_>| {
+        let selector = rule.selector.to_string();
+        let signs = selector.split(' ').filter(|word| matches!(*word, ">" | "+")).count();
+        let ancestors = selector.matches(' ').count().saturating_sub(2 * signs);
+        depth.saturating_pow(ancestors.try_into().unwrap_or(u32::MAX)).saturating_mul(1 + signs)
+    };
+    sheet.rules.iter().map(of_rule).fold(0, usize::saturating_add)
 }
 
 /// Returns the text of all `<style>` elements.

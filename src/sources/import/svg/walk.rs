@@ -24,7 +24,7 @@ const XLINK_NAMESPACE: &str = "http://www.w3.org/1999/xlink";
 /// An outline is as large as the page if its corners are this close to those of the page, as a share of its diagonal.
 const PAGE_TOL: f64 = 0.005;
 /// The largest nesting depth of groups and copies; deeper files could overflow the stack.
-const MAX_DEPTH: usize = 100;
+pub(super) const MAX_DEPTH: usize = 100;
 /// The largest number of elements, copies included. Copies of copies can grow exponentially.
 const MAX_ELEMENTS: usize = 500_000;
 
@@ -40,6 +40,8 @@ pub(super) struct SvgWalk<'a, 'd> {
     pub(super) ids: BTreeMap<&'a str, Node<'a, 'd>>,
     pub(super) lines: Lines,
     pub(super) draft: Draft,
+    /// The largest number of comparisons of one element with the style rules.
+    pub(super) comparisons: usize,
     /// The number of visited elements.
     pub(super) seen: usize,
     /// The number of comparisons of style rules with these elements.
@@ -175,7 +177,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     /// on their comparisons with style rules, or on the nesting depth.
     fn is_beyond_limits(&mut self, node: Node<'a, 'd>, around: &Context) -> bool {
         self.seen += 1;
-        self.styled = self.styled.saturating_add(self.sheet.rules.len());
+        self.styled = self.styled.saturating_add(self.comparisons);
         if self.seen > MAX_ELEMENTS || self.styled > MAX_RULE_MATCHES {
             let count = self.seen - 1;
             let why = if self.seen > MAX_ELEMENTS {
