@@ -344,6 +344,19 @@ fn the_program_writes_and_verifies_a_certificate() {
     let (code, text) = run(&["verify", "points.json", "stands.json"]);
     let is_whole = text.contains("capacity corner 0") && text.contains("capacity edge 0");
     assert!(code == Some(0) && is_whole && !text.contains("not proved"), "{text}");
+    run(&[
+        "check",
+        "stands.json",
+        "--capacity",
+        "a",
+        "--for-all",
+        "tilt=±1,friction=0.55..0.6",
+        "--certificate",
+        "in.json",
+    ]);
+    let (code, text) = run(&["verify", "in.json", "stands.json"]);
+    let is_whole = text.contains("capacity corner 0 case 3") && text.contains("capacity edge 0 case");
+    assert!(code == Some(0) && is_whole && !text.contains("not proved"), "{text}");
     let (code, text) = run(&["verify", "proof.json", "falls.json"]);
     assert!(code == Some(2) && text.contains("is not about falls.json: the bodies differ"), "{text}");
     let (code, json) = run(&["check", "falls.json", "--json", "--no-timing", "--accuracy", "proved"]);

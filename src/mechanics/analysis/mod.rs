@@ -43,6 +43,8 @@ pub use crate::mechanics::statics::interface::{ContactKind, Interface};
 pub use crate::mechanics::statics::resultant::Resultant;
 pub use crate::mechanics::wedge::Slide;
 pub(crate) use capacity::capacity_of;
+#[cfg(feature = "certificate")]
+pub(in crate::mechanics) use capacity::extremes;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use capacity::typed_capacity;
 pub use capacity::{

@@ -2,7 +2,7 @@
 
 use super::{Certificate, Change, FrameForm, LimitForm, LoadForm};
 use crate::geometry::{Vector, quarter_turn};
-use crate::mechanics::analysis::{End, FrameAnalysis, Interval, LoadCapacity, Verdict};
+use crate::mechanics::analysis::{Cases, End, FrameAnalysis, Interval, LoadCapacity, Verdict, extremes};
 use crate::mechanics::proof::Motion;
 use crate::mechanics::statics::assembly::{Assembly, load_about};
 
@@ -100,11 +100,17 @@ impl Limits<'_> {
         }
     }
 
-    /// Adds a proof just inside each corner of a capacity, and one just beyond each edge. A capacity in ranges of
-    /// parameters has none. A force at two points is their resultant at the first, with its torque.
+    /// Adds a proof just inside each corner of a capacity, and one just beyond each edge: in ranges of parameters, inside
+    /// in each extreme case, and beyond in the case to which the edge belongs. A force at two points is their resultant at
+    /// the first, with its torque; in ranges it has none.
     fn add_capacity(&self, proofs: &mut Vec<LimitForm>, capacity: &LoadCapacity) {
         let Some(body) = self.assembly.bodies.iter().position(|body| body.block == capacity.block) else { return };
-        let (Some(&at), 1, false) = (capacity.at.first(), capacity.cases, capacity.vertices.is_empty()) else { return };
+        let has_ranges = capacity.ranges != Cases::default();
+        let Ok(cases) = extremes(self.assembly, &capacity.ranges) else { return };
+        let (Some(&at), false) = (capacity.at.first(), capacity.vertices.is_empty()) else { return };
+        if has_ranges && capacity.at.len() > 1 {
+            return;
+        }
         let without = capacity.robot.and_then(|robot| self.assembly.grips.iter().position(|grip| grip.robot == robot));
         let corners: Vec<Vector> = capacity.vertices.iter().map(|vertex| vertex.force).collect();
         let torques: Vec<f64> = capacity.vertices.iter().map(|vertex| vertex.torque).collect();
@@ -112,9 +118,9 @@ impl Limits<'_> {
         let size = corners.iter().map(|force| force.norm()).fold(LEAST_SIZE * self.assembly.heaviest_load(), f64::max);
         let far = capacity.rays.iter().sum::<Vector>() * size;
         let middle = corners.iter().sum::<Vector>() / corners.len() as f64 + far;
-        let loaded = |force: Vector, torque: f64| {
+        let loaded = |case: &Assembly, force: Vector, torque: f64| {
             let load = LoadForm { force: [force.x, force.y], at: [at.x, at.y], torque, fixed: false };
-            let mut changed = self.assembly.clone();
+            let mut changed = if has_ranges { case.clone() } else { self.assembly.clone() };
             let own = &mut changed.bodies[body];
             own.load = own.load.plus(load_about(own.centroid, at, force, torque));
             let mut all: Vec<[Option<f64>; 3]> = self.bare.grips.iter().map(|grip| grip.limits).collect();
@@ -124,21 +130,31 @@ impl Limits<'_> {
                 (limits.fx, limits.fy, limits.torque) = (0.0, 0.0, 0.0);
             }
             let force = Some((self.bare.placed[body], load));
-            (Change { force, grip_limits: without.is_some().then_some(all), ..Change::default() }, changed)
+            let gravity = has_ranges.then_some([case.pull.x, case.pull.y]);
+            let friction = capacity.ranges.friction.map(|[least, _]| least);
+            let grip_limits = without.is_some().then_some(all);
+            (Change { gravity, friction, force, grip_limits, ..Change::default() }, changed)
+        };
+        let name = |part: &str, number: usize, case: usize| match cases.len() {
+            1 => format!("capacity {part} {number}"),
+            _ => format!("capacity {part} {number} case {case}"),
         };
         for (number, (corner, torque)) in corners.iter().zip(&torques).enumerate() {
-            let inside =
-                |share: f64| loaded(corner + (middle - corner) * share, torque + (middle_torque - torque) * share);
-            proofs.extend(self.proof(&format!("capacity corner {number}"), Verdict::Stable, &[], &inside));
+            for (k, case) in cases.iter().enumerate() {
+                let inside = |share: f64| {
+                    loaded(case, corner + (middle - corner) * share, torque + (middle_torque - torque) * share)
+                };
+                proofs.extend(self.proof(&name("corner", number, k), Verdict::Stable, &[], &inside));
+            }
         }
         for (number, edge) in capacity.edges.iter().enumerate() {
             let ends: Vec<usize> = edge.ends.iter().flatten().copied().collect();
             let (first, last) = (ends.first().unwrap_or(&0), ends.last().unwrap_or(&0));
             let on_edge = (corners[*first] + corners[*last]) / 2.0;
             let torque = (torques[*first] + torques[*last]) / 2.0;
-            let beyond = |share: f64| loaded(on_edge + edge.normal * (share * size), torque);
-            let name = format!("capacity edge {number}");
-            proofs.extend(self.proof(&name, Verdict::Unstable, &edge.mechanism, &beyond));
+            let Some(case) = cases.get(edge.case) else { continue };
+            let beyond = |share: f64| loaded(case, on_edge + edge.normal * (share * size), torque);
+            proofs.extend(self.proof(&name("edge", number, edge.case), Verdict::Unstable, &edge.mechanism, &beyond));
         }
     }
 

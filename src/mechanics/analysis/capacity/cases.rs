@@ -62,7 +62,7 @@ pub(super) fn intersected(
 }
 
 /// Returns one assembly for each extreme case, with the gravity and the friction of this case.
-fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, CapacityError> {
+pub(in crate::mechanics) fn extremes(assembly: &Assembly, cases: &Cases) -> Result<Vec<Assembly>, CapacityError> {
     cases.check()?;
     let tilt = cases.tilt.unwrap_or([0.0; 2]);
     let across = cases.horizontal_load.unwrap_or([0.0; 2]);

@@ -31,6 +31,8 @@ use crate::mechanics::solve::{DeadlineGuard, is_late};
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::Interfaces;
+#[cfg(feature = "certificate")]
+pub(in crate::mechanics) use cases::extremes;
 pub use load_capacity::{CapacityEdge, CapacityShape, CapacityVertex, LoadCapacity, VertexForce};
 use probe::Probe;
 pub(super) use probe::with_grip;
