@@ -139,6 +139,14 @@ pub(crate) fn around(points: impl IntoIterator<Item = PagePoint>) -> Option<Page
     Some(PageRect { at: PagePoint::new(left, top), width: right - left, height: bottom - top })
 }
 
+/// True if two rectangles overlap, or are less than `by` pixels apart.
+pub(crate) fn overlaps(a: PageRect, b: PageRect, by: f64) -> bool {
+    a.at.x < b.at.x + b.width + by
+        && b.at.x - by < a.at.x + a.width
+        && a.at.y < b.at.y + b.height + by
+        && b.at.y - by < a.at.y + a.height
+}
+
 /// Returns the point `forward` pixels along the unit vector `u` from `p`, and `aside` pixels to the right of it on the
 /// page.
 pub(crate) fn along(p: PagePoint, u: (f64, f64), forward: f64, aside: f64) -> PagePoint {

@@ -94,10 +94,15 @@ impl Figure for Mechanism {
     }
 }
 
+/// Returns the stroke of what moves in its present position.
+pub(super) fn present_edge(canvas: &Canvas<'_>) -> Stroke {
+    Stroke::new(canvas.theme().faint, canvas.mm(0.16)).dashed([canvas.mm(0.6), canvas.mm(0.5)])
+}
+
 /// Draws dashed outlines of the moving blocks in their present positions.
 pub(super) fn ghosts(canvas: &mut Canvas<'_>) {
-    let (scene, theme) = (canvas.scene(), canvas.theme());
-    let stroke = Stroke::new(theme.faint, canvas.mm(0.16)).dashed([canvas.mm(0.6), canvas.mm(0.5)]);
+    let scene = canvas.scene();
+    let stroke = present_edge(canvas);
     let (swatch, width) = small_block(canvas.look);
     let symbol = vec![Path::stroked(swatch, stroke.clone())];
     let key = Rc::new(Key { rank: 10, words: "blocks now".into(), symbol, width });

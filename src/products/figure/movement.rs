@@ -11,7 +11,7 @@ use super::design::{Layer, Mark};
 use super::displacement::Course;
 use super::fall::Fall;
 use super::gives::{self, Gives, How};
-use super::mechanism::{displaced_blocks, ghosts};
+use super::mechanism::{displaced_blocks, ghosts, present_edge};
 use super::option::Options;
 use super::panel::Figure;
 use super::placing::Label;
@@ -128,17 +128,16 @@ fn displace(canvas: &mut Canvas<'_>, cracked: &Cracked, movement: &Movement) {
 
 /// Draws the displaced blocks, and the present edge of the support.
 fn displaced(canvas: &mut Canvas<'_>, movement: &Movement) {
-    let (scene, theme) = (canvas.scene(), canvas.theme());
+    let scene = canvas.scene();
     let blocks = canvas.frame().placed.iter().map(|id| (*id, &scene.blocks[id.0].id));
     displaced_blocks(canvas, blocks, "how they follow, enlarged", |name, mark| mark.titled(name.clone()));
     // Where the support touches the structure now.
-    let stroke = Stroke::new(theme.faint, canvas.mm(0.16)).dashed([canvas.mm(0.6), canvas.mm(0.5)]);
     let contacts = canvas.found().contacts.iter().map(|contact| &contact.interface);
     let mut outline = Outline::default();
     for interface in contacts.filter(|interface| interface.bodies.contains(&BodyId::Ground(movement.ground))) {
         outline.extend(Outline::line(interface.ends.map(|end| canvas.place(end))));
     }
-    canvas.put(Mark::new(Layer::Stone, "ghosts", vec![Path::stroked(outline, stroke)]));
+    canvas.put(Mark::new(Layer::Stone, "ghosts", vec![Path::stroked(outline, present_edge(canvas))]));
 }
 
 /// Draws the joints that open or slide, with their amounts.

@@ -4,9 +4,9 @@
 //! anchors, and takes the position of least cost. A position on a mark or on another label is never taken. The cost
 //! counts the distance, covered edges of stones, the part inside stones, near marks, and a leader.
 
-use super::design::{Layer, Look, Mark, around};
+use super::design::{Layer, Look, Mark, around, overlaps};
 use super::option::Options;
-use crate::geometry::{Aabb, BoxIndex};
+use crate::geometry::{Aabb, BoxIndex, Point, convex_hull};
 use crate::pictures::drawing::symbol::Symbol;
 use crate::pictures::drawing::{
     Anchor, Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Segment, Stroke, Text, text,
@@ -271,7 +271,7 @@ impl PlacedLabels {
 
 /// Returns the position of least cost; `None` if no position is free.
 fn search(label: &Label, size: (f64, f64), drawn: &Surroundings, placed: &[PageRect], look: Look) -> Option<Position> {
-    let free = |rect: PageRect| !placed.iter().any(|other| overlap(rect, *other));
+    let free = |rect: PageRect| !placed.iter().any(|other| overlaps(rect, *other, 0.0));
     if let Some(middle) = label.fixed {
         let rect = centred(middle, size);
         if free(rect) {
@@ -297,7 +297,7 @@ fn around_anchors(
     placed: &[PageRect],
     look: Look,
 ) -> Option<Position> {
-    let free = |rect: PageRect| !placed.iter().any(|other| overlap(rect, *other));
+    let free = |rect: PageRect| !placed.iter().any(|other| overlaps(rect, *other, 0.0));
     let mut best: Option<Position> = None;
     for (number, anchor) in label.anchors.iter().enumerate() {
         for &distance in distances {
@@ -403,7 +403,7 @@ fn name_place(
         drawn.edge_length(space) <= 0.0
             && drawn.share_inside(space) >= 1.0
             && drawn.is_clear(grown_rect(rect, look.mm(0.2)))
-            && !placed.iter().any(|other| overlap(rect, *other))
+            && !placed.iter().any(|other| overlaps(rect, *other, 0.0))
     };
     places.into_iter().map(|(_, at)| centred(at, (wide, high))).find(|rect| fits(*rect))
 }
@@ -414,10 +414,6 @@ fn centred(middle: PagePoint, (width, height): (f64, f64)) -> PageRect {
 
 fn grown_rect(rect: PageRect, by: f64) -> PageRect {
     PageRect { at: rect.at.moved(-by, -by), width: rect.width + 2.0 * by, height: rect.height + 2.0 * by }
-}
-
-fn overlap(a: PageRect, b: PageRect) -> bool {
-    a.at.x < b.at.x + b.width && b.at.x < a.at.x + a.width && a.at.y < b.at.y + b.height && b.at.y < a.at.y + a.height
 }
 
 fn nearest(rect: PageRect, to: PagePoint) -> PagePoint {
@@ -472,24 +468,14 @@ fn contains(ring: &[PagePoint], p: PagePoint) -> bool {
     inside
 }
 
-/// Returns the corners of the convex hull of the points, by Andrew's monotone chain.
-fn hull(mut points: Vec<PagePoint>) -> Vec<PagePoint> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let turns = |a: PagePoint, b: PagePoint, c: PagePoint| (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    let chain = |points: &mut dyn Iterator<Item = PagePoint>| {
-        let mut chain: Vec<PagePoint> = Vec::new();
-        for p in points {
-            while chain.len() >= 2 && turns(chain[chain.len() - 2], chain[chain.len() - 1], p) <= 0.0 {
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        chain.pop();
-        chain
-    };
-    let mut hull = chain(&mut points.iter().copied());
-    hull.extend(chain(&mut points.iter().rev().copied()));
-    if hull.is_empty() { points.into_iter().take(1).collect() } else { hull }
+/// Returns the corners of the convex hull of the points; at least one.
+fn hull(points: Vec<PagePoint>) -> Vec<PagePoint> {
+    let hull = convex_hull(points.iter().map(|p| Point::new(p.x, p.y)).collect());
+    if hull.is_empty() {
+        points.into_iter().take(1).collect()
+    } else {
+        hull.into_iter().map(|p| PagePoint::new(p.x, p.y)).collect()
+    }
 }
 
 /// Returns the length of the part of a line segment that lies in a convex shape, whose corners are in the order of

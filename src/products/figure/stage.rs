@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::bearing::robots_reached;
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, along, colour};
+use super::design::{ArrowSize, Key, Layer, Mark, along, colour, overlaps};
 use super::placing::Label;
 use super::words::{force, quantity, round_below_in};
 use crate::geometry::{Bounds, Edge, Lattice, Point, Vector};
@@ -58,13 +58,6 @@ pub(crate) fn ground(canvas: &mut Canvas<'_>) {
         let mark = Mark::new(Layer::Ground, "earth", shapes);
         canvas.put(mark.titled("Ground".into()).avoided(0.0));
     }
-}
-
-fn overlaps(a: PageRect, b: PageRect, by: f64) -> bool {
-    a.at.x < b.at.x + b.width + by
-        && b.at.x - by < a.at.x + a.width
-        && a.at.y < b.at.y + b.height + by
-        && b.at.y - by < a.at.y + a.height
 }
 
 /// Draws one edge of the ground: a line, and a band of short lines on the side of the ground. A nearly horizontal edge

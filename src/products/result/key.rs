@@ -74,88 +74,72 @@ impl Type {
     /// Describes the type in words, for the table of keys.
     pub fn words(self) -> String {
         let fixed = match self {
-            Type::Word(words) => {
+            Word(words) => {
                 let quoted: Vec<String> = words.iter().map(|w| format!("`\"{w}\"`")).collect();
                 return quoted.join(", ");
             }
-            Type::Text => "text",
-            Type::Flag => "boolean",
-            Type::FlagOrOpen => "boolean or null",
-            Type::Count => "integer",
-            Type::Place | Type::Index => "integer or null",
-            Type::Number => "number",
-            Type::Bound => "number or `\"unbounded\"`",
-            Type::Margin => "margin",
-            Type::Interval => "interval",
-            Type::Slope => "derivative",
-            Type::SlopePair => "two derivatives",
-            Type::MotionPairs => "two motions",
-            Type::Pair => "[x, y]",
-            Type::Pairs => "two points",
-            Type::Points => "points",
-            Type::Rings => "lists of points",
-            Type::Names => "two names",
-            Type::NameList => "texts",
-            Type::Motions => "motion",
-            Type::Exclusions => "exclusions",
-            Type::Object => "object",
-            Type::Objects => "objects",
-            Type::ByRobot => "object by robot",
+            Text => "text",
+            Flag => "boolean",
+            FlagOrOpen => "boolean or null",
+            Count => "integer",
+            Place | Index => "integer or null",
+            Number => "number",
+            Bound => "number or `\"unbounded\"`",
+            Margin => "margin",
+            Interval => "interval",
+            Slope => "derivative",
+            SlopePair => "two derivatives",
+            MotionPairs => "two motions",
+            Pair => "[x, y]",
+            Pairs => "two points",
+            Points => "points",
+            Rings => "lists of points",
+            Names => "two names",
+            NameList => "texts",
+            Motions => "motion",
+            Exclusions => "exclusions",
+            Object => "object",
+            Objects => "objects",
+            ByRobot => "object by robot",
         };
         fixed.into()
     }
 
     /// Returns the JSON Schema of the type.
     fn schema(self) -> Value {
+        let list = |items: Value| json!({ "type": "array", "items": items });
+        let two = |items: Value| json!({ "type": "array", "items": items, "minItems": 2, "maxItems": 2 });
+        let any = |kinds: &[Value]| json!({ "anyOf": kinds });
+        let (null, object, text) =
+            (json!({ "type": "null" }), json!({ "type": "object" }), json!({ "type": "string" }));
         let number = json!({ "type": ["number", "null"] });
-        let pair = json!({ "type": "array", "items": number, "minItems": 2, "maxItems": 2 });
-        let unbounded = json!({ "const": "unbounded" });
+        let (pair, motions) = (two(number.clone()), list(json!({ "$ref": "#/$defs/motion" })));
+        let (at_kink, withheld) = (json!({ "const": "at_kink" }), json!({ "const": "withheld" }));
         match self {
-            Type::Text => json!({ "type": "string" }),
-            Type::Word(words) => json!({ "type": "string", "enum": words }),
-            Type::Flag => json!({ "type": "boolean" }),
-            Type::FlagOrOpen => json!({ "type": ["boolean", "null"] }),
-            Type::Count => json!({ "type": "integer", "minimum": 0 }),
-            Type::Place => json!({ "type": ["integer", "null"], "minimum": 1 }),
-            Type::Index => json!({ "type": ["integer", "null"], "minimum": 0 }),
-            Type::Number => number,
-            Type::Bound | Type::Margin => json!({ "anyOf": [number, unbounded] }),
-            Type::Interval => {
-                let withheld = json!({ "const": "withheld" });
-                let end = json!({ "anyOf": [number, withheld] });
-                let both = json!({ "type": "array", "items": end, "minItems": 2, "maxItems": 2 });
-                json!({ "anyOf": [both, { "type": "null" }, withheld] })
-            }
-            Type::Slope => json!({ "anyOf": [number, pair, { "const": "at_kink" }] }),
-            Type::SlopePair => {
-                let both = json!({ "type": "array", "items": pair, "minItems": 2, "maxItems": 2 });
-                json!({ "anyOf": [pair, both, { "const": "at_kink" }, { "type": "null" }] })
-            }
-            Type::MotionPairs => {
-                let motions = json!({ "type": "array", "items": { "$ref": "#/$defs/motion" } });
-                json!({ "type": "array", "items": motions, "minItems": 2, "maxItems": 2 })
-            }
-            Type::Pair => pair,
-            Type::Pairs => json!({ "type": "array", "items": pair, "minItems": 2, "maxItems": 2 }),
-            Type::Points => json!({ "type": "array", "items": pair }),
-            Type::Rings => {
-                json!({ "type": "array", "items": { "type": "array", "items": pair } })
-            }
-            Type::Names => {
-                json!({ "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2 })
-            }
-            Type::NameList => json!({ "type": "array", "items": { "type": "string" } }),
-            Type::Motions => {
-                json!({ "type": "array", "items": { "$ref": "#/$defs/motion" } })
-            }
-            Type::Exclusions => {
-                json!({ "type": "array", "items": { "$ref": "#/$defs/exclusion" } })
-            }
-            Type::Object => json!({ "type": "object" }),
-            Type::Objects => json!({ "type": "array", "items": { "type": "object" } }),
-            Type::ByRobot => {
-                json!({ "type": "object", "additionalProperties": { "type": "object" } })
-            }
+            Text => text,
+            Word(words) => json!({ "type": "string", "enum": words }),
+            Flag => json!({ "type": "boolean" }),
+            FlagOrOpen => json!({ "type": ["boolean", "null"] }),
+            Count => json!({ "type": "integer", "minimum": 0 }),
+            Place => json!({ "type": ["integer", "null"], "minimum": 1 }),
+            Index => json!({ "type": ["integer", "null"], "minimum": 0 }),
+            Number => number,
+            Bound | Margin => any(&[number, json!({ "const": "unbounded" })]),
+            Interval => any(&[two(any(&[number, withheld.clone()])), null, withheld]),
+            Slope => any(&[number, pair, at_kink]),
+            SlopePair => any(&[pair.clone(), two(pair), at_kink, null]),
+            MotionPairs => two(motions),
+            Pair => pair,
+            Pairs => two(pair),
+            Points => list(pair),
+            Rings => list(list(pair)),
+            Names => two(text),
+            NameList => list(text),
+            Motions => motions,
+            Exclusions => list(json!({ "$ref": "#/$defs/exclusion" })),
+            Object => object,
+            Objects => list(object),
+            ByRobot => json!({ "type": "object", "additionalProperties": object }),
         }
     }
 }
@@ -215,6 +199,20 @@ const IF_MARGINS_REQUESTED: &str = "with `--margins`";
 /// The condition for keys that are only present if this margin was requested. A request without names requests all
 /// margins.
 const IF_MARGIN_REQUESTED: &str = "if requested";
+
+const IF_NO_INTERVAL: &str = "if its interval is `null`";
+const UNIQUE: Key = key("unique", Flag, "whether both derivatives are equal");
+const INTERFACE: Key = key("interface", Count, "index in `interfaces`, from 0");
+const TILT_SIDES: &[Key] = &[
+    key("left", Margin, "to the left (clockwise)").unit("°"),
+    key("right", Margin, "to the right (anticlockwise)").unit("°"),
+];
+const MOVING_BLOCK: &[Key] = &[
+    key("block", Text, "block that moves"),
+    key("at", Pair, "point whose velocity is given").unit("m"),
+    key("velocity", Pair, "velocity of this point"),
+    key("spin", Number, "spin of the block, positive anticlockwise").unit("1/m"),
+];
 
 /// Every key of a result, in the order in which a result has them.
 #[rustfmt::skip]
@@ -293,10 +291,7 @@ pub static KEYS: &[Key] = &[
         key("mechanism", Motions, "velocities of the blocks as the collapse begins; empty if the frame stands"),
         key("margins", Object, "how far the frame is from collapse: the extreme values at which it stands; a margin is null if the frame stands at no value, if the margin does not exist in this frame, or if no value was confirmed (a notice then says so)").when(IF_MARGINS_REQUESTED).of(&[
             key("friction", Margin, "least friction coefficient, the same at all interfaces").when(IF_MARGIN_REQUESTED),
-            key("tilt", Object, "largest turns of gravity at which the frame stands; each is null if it falls without a turn").when(IF_MARGIN_REQUESTED).of(&[
-                key("left", Margin, "to the left (clockwise)").unit("°"),
-                key("right", Margin, "to the right (anticlockwise)").unit("°"),
-            ]),
+            key("tilt", Object, "largest turns of gravity at which the frame stands; each is null if it falls without a turn").when(IF_MARGIN_REQUESTED).of(TILT_SIDES),
             key("horizontal_load", Object, "largest horizontal force on every block, as a share of its weight").when(IF_MARGIN_REQUESTED).of(&[
                 key("left", Margin, "in this direction"),
                 key("right", Margin, "in this direction"),
@@ -321,15 +316,15 @@ pub static KEYS: &[Key] = &[
                 ]),
             ]),
             key("excluded", Object, "why the frame stands at no value: motions, each with the values that it excludes; together they exclude all. If two parts of the frame conflict, one motion excludes the values below a limit, and the other those above a smaller limit").when("if an interval is `null`").of(&[
-                key("friction", Exclusions, "they exclude all coefficients up to 1000, the largest that is tried").when("if its interval is `null`"),
-                key("tilt", Exclusions, "they exclude all turns of gravity; the ranges cover a full turn").unit("°").when("if its interval is `null`"),
-                key("horizontal_load", Exclusions, "they exclude all values").when("if its interval is `null`"),
-                key("kernel", Exclusions, "they exclude all values").when("if its interval is `null`"),
-                key("load_factor", Exclusions, "they exclude all values").when("if its interval is `null`"),
-                key("robots", ByRobot, "they exclude all values of a robot's limits").when("if its interval is `null`").of(&[
-                    key("fx", Exclusions, "they exclude all limits of its horizontal force").unit("N").when("if its interval is `null`"),
-                    key("fy", Exclusions, "they exclude all limits of its vertical force").unit("N").when("if its interval is `null`"),
-                    key("torque", Exclusions, "they exclude all limits of its torque").unit("N·m").when("if its interval is `null`"),
+                key("friction", Exclusions, "they exclude all coefficients up to 1000, the largest that is tried").when(IF_NO_INTERVAL),
+                key("tilt", Exclusions, "they exclude all turns of gravity; the ranges cover a full turn").unit("°").when(IF_NO_INTERVAL),
+                key("horizontal_load", Exclusions, "they exclude all values").when(IF_NO_INTERVAL),
+                key("kernel", Exclusions, "they exclude all values").when(IF_NO_INTERVAL),
+                key("load_factor", Exclusions, "they exclude all values").when(IF_NO_INTERVAL),
+                key("robots", ByRobot, "they exclude all values of a robot's limits").when(IF_NO_INTERVAL).of(&[
+                    key("fx", Exclusions, "they exclude all limits of its horizontal force").unit("N").when(IF_NO_INTERVAL),
+                    key("fy", Exclusions, "they exclude all limits of its vertical force").unit("N").when(IF_NO_INTERVAL),
+                    key("torque", Exclusions, "they exclude all limits of its torque").unit("N·m").when(IF_NO_INTERVAL),
                 ]),
             ]),
             key("notes", NameList, "remarks on the intervals, one sentence each").when("if there are remarks"),
@@ -369,29 +364,29 @@ pub static KEYS: &[Key] = &[
                     key("with", NameList, "other bodies whose vertices move with this one, so that no joint opens"),
                     key("moves", Word(&["freely", "along", "not"]), "whether the vertex can move freely, only along an edge of another body, or not at all without opening or bending a joint"),
                     key("along", Pair, "unit vector along this edge").when("if `moves` is `along`"),
-                    key("unique", Flag, "whether both derivatives are equal"),
+                    UNIQUE,
                     key("slope", SlopePair, "change of the value per metre by which the vertex moves along x and along y; if it can move only along an edge, a vector along this edge; null if it cannot move").unit("1/m"),
                 ]),
                 key("weights", Objects, "for the weight of each placed block").of(&[
                     key("block", Text, "block whose weight changes"),
-                    key("unique", Flag, "whether both derivatives are equal"),
+                    UNIQUE,
                     key("slope", Slope, "change of the value per newton of weight; the centroid does not move").unit("1/N"),
                 ]),
                 key("friction", Objects, "for the friction coefficient of each interface; empty for the friction margin, which sets all coefficients").of(&[
-                    key("interface", Count, "index in `interfaces`, from 0"),
+                    INTERFACE,
                     key("bodies", Names, "bodies of the interface"),
-                    key("unique", Flag, "whether both derivatives are equal"),
+                    UNIQUE,
                     key("slope", Slope, "change of the value per unit of the friction coefficient"),
                 ]),
                 key("friction_of_all", Object, "for the same change of all friction coefficients").when("unless the margin is the friction margin").of(&[
-                    key("unique", Flag, "whether both derivatives are equal"),
+                    UNIQUE,
                     key("slope", Slope, "change of the value per unit of all coefficients"),
                 ]),
                 key("loads", Objects, "for each load on a placed block").of(&[
                     key("load", Count, "index in `loads` of the scene, from 0"),
                     key("block", Text, "block on which the load acts"),
                     key("at", Pair, "point at which the load acts").unit("m"),
-                    key("unique", Flag, "whether both derivatives are equal"),
+                    UNIQUE,
                     key("slope", SlopePair, "change of the value per metre by which this point moves along x and along y").unit("1/m"),
                 ]),
             ]),
@@ -419,7 +414,7 @@ pub static KEYS: &[Key] = &[
             key("balances", Objects, "contact forces that prove each vertex, in the order of `vertices`").when("unless `--for-all` gives more than one case").of(&[
                 key("torque", Number, "torque on the block, about the first point of a free contact; 0 if the force acts at one point").unit("N·m"),
                 key("interfaces", Objects, "interfaces of all blocks that influence this block").of(&[
-                    key("interface", Count, "index in `interfaces`, from 0"),
+                    INTERFACE,
                     key("normal_forces", Pair, "normal forces at the two application points").unit("N"),
                     key("friction_force", Number, "friction force").unit("N"),
                 ]),
@@ -448,14 +443,11 @@ pub static KEYS: &[Key] = &[
             key("id", Text, "name of the case"),
             key("verdict", Word(&["stable", "undecided", "unstable"]), "verdict in this case"),
             key("load_factor", Margin, "largest factor on the loads in this case").when(IF_MARGIN_REQUESTED),
-            key("tilt", Object, "largest turns of gravity in this case").when(IF_MARGIN_REQUESTED).of(&[
-                key("left", Margin, "to the left (clockwise)").unit("°"),
-                key("right", Margin, "to the right (anticlockwise)").unit("°"),
-            ]),
+            key("tilt", Object, "largest turns of gravity in this case").when(IF_MARGIN_REQUESTED).of(TILT_SIDES),
         ]),
         key("governing_case", Text, "the worst case: that with the worst verdict, then that with the least load factor; of equal ones, that with the least tilt").when("if the scene has load cases"),
         key("envelope", Objects, "the least and the greatest forces at each interface in the listed balances of all cases").when("if the scene has load cases").of(&[
-            key("interface", Count, "index in `interfaces`, from 0"),
+            INTERFACE,
             key("normal", Pair, "least and greatest sum of the normal forces").unit("N"),
             key("friction", Pair, "least and greatest friction force").unit("N"),
         ]),
@@ -466,7 +458,7 @@ pub static KEYS: &[Key] = &[
             key("force", Pair, "force of the structure on the support: H to the right, V upwards").unit("N").when("if it follows"),
             key("work", Number, "work of this force on the movement, the least of all forces that balance the frame").unit("J").when("if it follows"),
             key("joints", Objects, "joints that open or slide").when("if it follows").of(&[
-                key("interface", Count, "index in `interfaces`, from 0"),
+                INTERFACE,
                 key("end", Count, "application point that stays closed, 0 or 1").when("if the joint opens about one end"),
                 key("opening", Number, "how far it opens at its wider end").unit("m/m"),
                 key("slip", Number, "how far the first body slides along (−n_y, n_x)").unit("m/m"),
@@ -510,32 +502,22 @@ pub static KEYS: &[Key] = &[
         key("only_by_wedging", FlagOrOpen, "whether the frame stands only because blocks press on each other although no load presses them together; null if this could not be decided, and `effects` then gives the reason").when("with `--wedging`, if the frame stands"),
         key("wedging", Object, "proof that the frame stands only by wedging").when("with `--wedging`, if `only_by_wedging` is `true`").of(&[
             key("must_press", Objects, "interfaces that open or slide if the springs give way; in every balance, their normal forces sum to at least `normal_force_at_least`, if a bound was found").of(&[
-                key("interface", Count, "index in `interfaces`, from 0"),
+                INTERFACE,
                 key("bodies", Names, "bodies of the interface"),
             ]),
             key("normal_force_at_least", Number, "lower bound of the sum of the normal forces in `must_press`").unit("N").when("if a bound was found"),
-            key("bound", Objects, "motion that proves this bound").when("if a bound was found").of(&[
-                key("block", Text, "block that moves"),
-                key("at", Pair, "point whose velocity is given").unit("m"),
-                key("velocity", Pair, "velocity of this point"),
-                key("spin", Number, "spin of the block, positive anticlockwise").unit("1/m"),
-            ]),
-            key("gives_way", Objects, "motion of the blocks if all contacts are springs without initial stress").of(&[
-                key("block", Text, "block that moves"),
-                key("at", Pair, "point whose velocity is given").unit("m"),
-                key("velocity", Pair, "velocity of this point"),
-                key("spin", Number, "spin of the block, positive anticlockwise").unit("1/m"),
-            ]),
+            key("bound", Objects, "motion that proves this bound").when("if a bound was found").of(MOVING_BLOCK),
+            key("gives_way", Objects, "motion of the blocks if all contacts are springs without initial stress").of(MOVING_BLOCK),
             key("presses_nothing", Flag, "whether the motion `gives_way` compresses no interface"),
             key("cases", Count, "number of cases that were ruled out"),
             key("ruled_out", Objects, "cases of pressing and sliding in which springs at the contacts cannot be at rest; together they cover all").of(&[
                 key("points", Objects, "application points that the case fixes").of(&[
-                    key("interface", Count, "index in `interfaces`, from 0"),
+                    INTERFACE,
                     key("point", Count, "index of the application point, 0 or 1"),
                     key("presses", Flag, "whether the point presses"),
                 ]),
                 key("faces", Objects, "interfaces with friction that the case fixes").of(&[
-                    key("interface", Count, "index in `interfaces`, from 0"),
+                    INTERFACE,
                     key("slides", Text, "`forth`: it slides along (−n_y, n_x), where n is the normal of the interface; `back`: in the opposite direction; `sticks`: it does not slide"),
                 ]),
             ]),

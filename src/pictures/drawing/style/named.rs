@@ -85,11 +85,9 @@ impl Theme {
     /// blocks are light. Robots are lighter than missing forces, and missing forces are lighter than all other forces.
     pub fn paper() -> Theme {
         Theme {
-            page: Colour::WHITE,
             ink: Colour::BLACK,
             faint: Colour::hex(0x404040),
             rule: Colour::hex(0xc8c8c8),
-            casing: Colour::WHITE,
             arrows: all(&[0x0a0c22, 0x0c3428, 0x5a3f96]),
             robots: all(&[0xe59a1f, 0xf6c94a]),
             load: Colour::hex(0x2f6fc4),
@@ -103,9 +101,7 @@ impl Theme {
             stands: Colour::hex(0x1b6b43),
             falls: Colour::hex(0x8a0f14),
             undecided: Colour::hex(0x555555),
-            forces: ForceMarks::Joints,
-            widths: Widths::DEFAULT,
-            sizes: Sizes::PLAIN,
+            ..Theme::plain()
         }
     }
 
@@ -113,11 +109,8 @@ impl Theme {
     /// go from yellow to blue. The theme is suitable for all kinds of colour blindness.
     pub fn colourblind() -> Theme {
         Theme {
-            page: Colour::WHITE,
             ink: Colour::hex(0x1c1f24),
             faint: Colour::hex(0x5d646e),
-            rule: Colour::hex(0xd9dce1),
-            casing: Colour::WHITE,
             arrows: all(&[0x009e73, 0x56b4e9, 0x0072b2]),
             robots: all(&[0xe69f00, 0xf0e442]),
             load: Colour::hex(0xcc79a7),
@@ -131,9 +124,7 @@ impl Theme {
             stands: Colour::hex(0x0072b2),
             falls: Colour::hex(0x7d3600),
             undecided: Colour::hex(0x5d646e),
-            forces: ForceMarks::Joints,
-            widths: Widths::DEFAULT,
-            sizes: Sizes::PLAIN,
+            ..Theme::plain()
         }
     }
 
@@ -158,9 +149,7 @@ impl Theme {
             stands: Colour::hex(0x6fe0a8),
             falls: Colour::hex(0xff6b6b),
             undecided: Colour::hex(0xa3abb6),
-            forces: ForceMarks::Joints,
-            widths: Widths::DEFAULT,
-            sizes: Sizes::PLAIN,
+            ..Theme::plain()
         }
     }
 }

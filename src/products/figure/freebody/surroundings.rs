@@ -1,7 +1,7 @@
 //! Finds what a free body has around it: the bodies that touch it, the points at which forces act, and the shown part of
 //! the scene. [`places`] lists the coordinates of these points.
 
-use crate::geometry::{Bounds, Point, Vector, quarter_turn};
+use crate::geometry::{Bounds, Point, Vector, in_half_plane, quarter_turn};
 use crate::mechanics::analysis::{Analysis, Contact};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::pictures::drawing::symbol::{Accent, Symbol};
@@ -129,30 +129,15 @@ pub(super) fn aside(scene: &Scene, contact: &Contact, block: BlockId, clear: f64
     tries.into_iter().find(goes_on).unwrap_or(interface.middle())
 }
 
-/// Returns the part of a ring of points that lies in a rectangle, by the algorithm of Sutherland and Hodgman. Parts that
+/// Returns the part of a ring of points that lies in a rectangle. Parts that
 /// are apart may be joined by lines along the edges of the rectangle.
 pub(super) fn clipped(ring: &[PagePoint], rect: PageRect) -> Vec<PagePoint> {
     let (right, floor) = (rect.at.x + rect.width, rect.at.y + rect.height);
     // Each side as (a, b, c): a point is inside if a·x + b·y + c ≥ 0.
     let sides = [(1.0, 0.0, -rect.at.x), (-1.0, 0.0, right), (0.0, 1.0, -rect.at.y), (0.0, -1.0, floor)];
-    let mut ring = ring.to_vec();
-    for (a, b, c) in sides {
-        let height = |p: PagePoint| a * p.x + b * p.y + c;
-        let mut cut = Vec::new();
-        for (i, p) in ring.iter().enumerate() {
-            let next = ring[(i + 1) % ring.len()];
-            let (here, there) = (height(*p), height(next));
-            if here >= 0.0 {
-                cut.push(*p);
-            }
-            if (here >= 0.0) != (there >= 0.0) {
-                let share = here / (here - there);
-                cut.push(p.moved(share * (next.x - p.x), share * (next.y - p.y)));
-            }
-        }
-        ring = cut;
-    }
-    ring
+    let ring = ring.iter().map(|p| Point::new(p.x, p.y)).collect();
+    let cut = |ring: Vec<Point>, (a, b, c): (f64, f64, f64)| in_half_plane(&ring, |p| -(a * p.x + b * p.y + c));
+    sides.into_iter().fold(ring, cut).into_iter().map(|p| PagePoint::new(p.x, p.y)).collect()
 }
 
 /// Space between values in a row, pixels.
