@@ -50,13 +50,12 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
     }
     let css = style_text(&document);
     let sheet = StyleSheet::parse(&css);
-    let elements = document.descendants().filter(Node::is_element).count();
+    let (rules, elements) = (sheet.rules.len(), document.descendants().filter(Node::is_element).count());
+    let too_slow =
+        format!("its {rules} style rules and {elements} elements need too many comparisons; simplify its styles");
     let of_element = comparisons(&sheet, &document);
     if of_element.saturating_mul(elements) > MAX_RULE_MATCHES {
-        let rules = sheet.rules.len();
-        return Err(format!(
-            "its {rules} style rules and {elements} elements need too many comparisons; simplify its styles"
-        ));
+        return Err(too_slow);
     }
     let mut walk = SvgWalk {
         sheet,
@@ -82,6 +81,10 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
         return Err("--frame needs a figure by drystone; this drawing has no frames".into());
     } else {
         walk.drawing(root, scale)?;
+    }
+    // Copies are compared too.
+    if walk.styled > MAX_RULE_MATCHES {
+        return Err(too_slow);
     }
     walk.count_unlisted();
     if walk.more > 0 {

@@ -173,18 +173,17 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         reference(node).and_then(|r| r.trim().strip_prefix('#')).and_then(|id| self.ids.get(id).copied())
     }
 
-    /// Counts an element. Returns true, and adds a remark, if the element exceeds a limit: on the number of elements,
-    /// on their comparisons with style rules, or on the nesting depth.
+    /// Counts an element. Returns true if the element exceeds a limit: on the comparisons with style rules, for which the
+    /// drawing is refused, or, with a remark, on the number of elements or on the nesting depth.
     fn is_beyond_limits(&mut self, node: Node<'a, 'd>, around: &Context) -> bool {
         self.seen += 1;
         self.styled = self.styled.saturating_add(self.comparisons);
-        if self.seen > MAX_ELEMENTS || self.styled > MAX_RULE_MATCHES {
-            let count = self.seen - 1;
-            let why = if self.seen > MAX_ELEMENTS {
-                format!("the drawing has more than {count} elements, copies included; this one is left out")
-            } else {
-                format!("the drawing has too many style rules for more than {count} elements; this one is left out")
-            };
+        if self.styled > MAX_RULE_MATCHES {
+            return true;
+        }
+        if self.seen > MAX_ELEMENTS {
+            let why =
+                format!("the drawing has more than {MAX_ELEMENTS} elements, copies included; this one is left out");
             self.remark(RemarkKind::TooManyElements, node, around, &why, "");
             return true;
         }
