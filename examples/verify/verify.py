@@ -5,6 +5,7 @@ import json
 import sys
 from fractions import Fraction
 from itertools import chain, combinations, product
+from errors import additions, inset, is_valid, pattern
 
 TAN_OF_ANGLE = Fraction(1, 100)  # the largest angle between a contact and the edges that it lies at
 REST = (0, 0, 0)
@@ -34,6 +35,7 @@ def prepare(body):
 def load(body, index, frame):
     """The weight at the centre, the listed loads times the load factor, and the further load, as one wrench."""
     total = wrench([g * body["weight"] for g in frame["gravity"]], body["centre"])
+    total[2] += pattern(body, index, frame)
     loads = [(item, 1 if item.get("fixed") else frame.get("load_factor", 1)) for item in body.get("loads", [])]
     loaded, further = frame.get("force") or (None, None)
     for item, factor in loads + [(further, 1)] * (loaded == index):
@@ -41,10 +43,10 @@ def load(body, index, frame):
     return total
 
 def line(contact, frame):
-    """The normal of a contact and the points of its forces. A safety kernel moves these inward from its ends."""
+    """The normal of a contact and the points of its forces. A kernel and errors move these inward from its ends."""
     if "normal" in contact:
         return contact["normal"], contact["points"]
-    ends, inward = contact["points"], Fraction(frame.get("kernel", 0)) / 2
+    ends, inward = contact["points"], Fraction(frame.get("kernel", 0)) / 2 + inset(contact, frame)
     return left(sub(*ends)), [plus(p, sub(q, p), inward) for p, q in (ends, ends[::-1])]
 
 def components(frame):
@@ -70,28 +72,39 @@ def solve(rows, unknowns):
     is_solved = not any(row[-1] for row in rows)
     return [pivots[j][-1] if is_solved and j in pivots else 0 for j in range(unknowns)]
 
-def stands(bodies, frame):
-    """Yields what is wrong with the forces of a frame."""
-    forces, parts = frame["forces"], components(frame)
-    amounts, residual = [0] * len(parts), {k: load(bodies[k], k, frame) for k in frame["placed"]}
+def corrected(frame, parts, given, residual):
+    """The conditions of forces after their correction, and the bodies that do not balance."""
+    amounts = [0] * len(parts)
     def change(part, amount):
         amounts[part] += amount
         for body in parts[part].keys() & residual.keys():
             residual[body] = plus(residual[body], parts[part][body], amount)
-    for part, amount in enumerate(chain(*forces["contacts"], *forces["grips"])):
+    for part, amount in given:
         change(part, amount)
-    for own, by in forces["order"]:
+    for own, by in [step for step in frame["forces"]["order"] if any(any(residual[b]) for b in step[0])]:
         rows = [[parts[k].get(b, REST)[i] for k in by] + [-residual[b][i]] for b in own for i in range(3)]
         for k, amount in zip(by, solve(rows, len(by))):
             change(k, amount)
-    yield from (f"{bodies[k]['id']} does not balance" for k, rest in residual.items() if any(rest))
-    for k, (c, (n1, n2, t)) in enumerate(zip(frame["contacts"], threes(amounts))):
-        friction = frame.get("friction", c["friction"])
-        slack = min(n1, n2, friction * (n1 + n2) - abs(t), -n2 if "normal" in c else 0)
-        if slack < 0:
-            yield f"contact {k} leaves its law by {float(-slack):.1e}"
-    grips = zip(limits_of(frame), amounts[3 * len(frame["contacts"]) :])
-    excess = [abs(amount) - limit for limit, amount in grips if limit is not None]
+    values = []  # what must not be negative at the contacts, and the components of the grips
+    for c, (n1, n2, t) in zip(frame["contacts"], threes(amounts)):
+        most = frame.get("friction", c["friction"]) * (n1 + n2)
+        values += [n1, n2, most - t, most + t, -n2 if "normal" in c else 0]
+    return values + amounts[3 * len(frame["contacts"]) :], [k for k, rest in residual.items() if any(rest)]
+
+def stands(bodies, frame):
+    """Yields what is wrong with the forces of a frame."""
+    forces, parts, ends = frame["forces"], components(frame), 5 * len(frame["contacts"])
+    loads = {k: load(bodies[k], k, frame) for k in frame["placed"]}
+    values, off = corrected(frame, parts, enumerate(chain(*forces["contacts"], *forces["grips"])), loads)
+    spread = [0] * len(values)  # by how much the errors may change the values
+    for given, moments in additions(bodies, frame):
+        changes, more = corrected(frame, parts, given, moments)
+        spread, off = [total + abs(change) for total, change in zip(spread, changes)], off + more
+    yield from (f"{bodies[k]['id']} does not balance" for k in off)
+    slack = [min(v - by for v, by in zip(values[k : k + 5], spread[k:])) for k in range(0, ends, 5)]
+    yield from (f"contact {k} leaves its law by {float(-by):.1e}" for k, by in enumerate(slack) if by < 0)
+    grips = zip(limits_of(frame), values[ends:], spread[ends:])
+    excess = [abs(value) + by - limit for limit, value, by in grips if limit is not None]
     yield from (f"a robot exceeds its limit by {float(by):.1e}" for by in excess if by > 0)
 
 def falls(bodies, frame):
@@ -174,6 +187,7 @@ def form(file, frame):
         "a number": min(numbers) >= 0 and 0 <= frame.get("kernel", 0) <= 1,
         "a placed body": {*moved} <= {*placed} <= blocks and len(placed) == len({*placed}),
         "a contact": all(len(c["points"]) == 2 - ("normal" in c) and joins(*c["bodies"]) for c in contacts),
+        "an error": is_valid(frame),
         "a grip": len(limits_of(frame)) == 3 * len(grips) and all(g["body"] in placed for g in grips),
     }
     return [f"{name} is not valid" for name, is_fine in rules.items() if not is_fine]

@@ -249,6 +249,42 @@ fn both_sides_of_margins_and_capacities_are_exact() {
     }
 }
 
+/// A placement tolerance is proved by forces for all errors, and the pattern that falls by a motion.
+#[test]
+fn placement_tolerances_are_exact_for_both_checkers() {
+    let mut texts = Vec::new();
+    let (mut stand, mut fall) = (0, 0);
+    let robot = Scene::from_json(ROBOT).expect("a scene");
+    let all = scenes(3_000).into_iter().filter(|(name, scene)| {
+        !AT_THEIR_LIMIT.contains(&name.as_str()) && scene.frames().len() == 1 && scene.blocks().len() <= 14
+    });
+    for (name, scene) in std::iter::once(("robot".to_owned(), robot)).chain(all.take(30)) {
+        let certificate = certificate(&scene, &Options::default().placement(true));
+        let checked = certificate.check().expect("a structure");
+        for (limit, form) in checked.limits.iter().zip(&certificate.limits) {
+            assert_eq!(limit.faults, [""; 0], "{name}: {}", form.change.to_json());
+            let size = form.change.errors.as_ref().expect("errors").size;
+            let stated: f64 = limit.of.split(' ').nth(1).expect("a number").parse().expect("a number");
+            assert!((size - stated).abs() <= 1e-6 * stated, "{name}: {size} instead of {stated}");
+            *(if limit.verdict == Verdict::Stable.word() { &mut stand } else { &mut fall }) += 1;
+        }
+        // Errors that are a little larger are not proved.
+        let mut wrong = certificate.clone();
+        for limit in &mut wrong.limits {
+            let factor = if limit.verdict == Verdict::Stable.word() { 1.001 } else { 0.9 };
+            limit.change.errors.as_mut().expect("errors").size *= factor;
+        }
+        let checked = wrong.check().expect("a structure");
+        assert!(checked.limits.iter().all(|limit| !limit.faults.is_empty()), "{name}: {checked:?}");
+        texts.extend([certificate, wrong].map(|own| (own.to_json(), proved(&own.check().expect("a structure")))));
+    }
+    assert!(stand > 12 && fall > 10, "{stand} and {fall}");
+    let Some(pages) = by_python(&texts.iter().map(|(text, _)| text.clone()).collect::<Vec<_>>()) else { return };
+    for ((text, rust), page) in texts.iter().zip(&pages) {
+        assert_eq!(*rust, proved_by_python(page), "{text}\n{page:#?}");
+    }
+}
+
 /// A left-out contact proves a margin too small, and a block that is placed twice has its weight twice.
 #[test]
 fn changed_frames_need_every_contact_and_no_block_counts_twice() {
@@ -285,7 +321,7 @@ fn a_wrong_number_is_refused_by_both_checkers_or_by_none() {
         .iter()
         .filter(|(_, scene)| scene.frames().len() == 1 && scene.blocks().len() <= 5)
         .take(12)
-        .map(|(_, scene)| certificate(scene, &Options::default().margins(true)).to_json())
+        .map(|(_, scene)| certificate(scene, &Options::default().margins(true).placement(true)).to_json())
         .collect();
     let mut mutants = Vec::new();
     let count = number_of("DRYSTONE_MUTANTS", 400) as usize;

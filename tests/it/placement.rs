@@ -280,6 +280,24 @@ fn robots_hold_with_their_limits() {
     assert!(weak > 0.0 && strong > weak, "{weak} {strong}");
 }
 
+/// A block that only a robot holds, beside a block on the ground: the robot must exert the torque of its error.
+#[test]
+fn a_robot_alone_holds_an_error_with_its_torque() {
+    let held = |limits: Value| {
+        let blocks =
+            vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 5.0), block("b", rectangle(3.0, 2.0, 1.0, 1.0), 10.0)];
+        let mut file = on_floor(0.7, blocks);
+        file["robots"] = json!([{ "id": "r", "holds": "b", "limits": limits }]);
+        tolerance(scene(&file))
+    };
+    // Without torque there is no room, with 0.6 N·m the block of 10 N may be off by 0.06 m.
+    assert_eq!(held(json!({})).proved, 0.0);
+    let torque = held(json!({ "torque": 0.6 }));
+    compare("held", &torque, 60.0, 60.0);
+    assert!((torque.blocks[1].proved - 0.06).abs() < 1e-6, "{:?}", torque.blocks);
+    compare("on the ground", &held(json!({ "torque": 600 })), 250.0, 250.0);
+}
+
 /// The scene in which the centre of gravity of each block is off by its offset, metres, to the right, its loads to the
 /// side that turns it the same way: as torques, because all gravity points down.
 fn off_as(file: &Value, start: &Scene, offsets: &[f64]) -> Scene {

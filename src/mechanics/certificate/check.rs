@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use super::fraction::{Number, Rational, Vector, Wrench, eliminate, solve};
 use super::links::{Link, centroid, grip_wrenches, length_of_normal, sides};
 use super::number::Interval;
-use super::{Certificate, ContactForm, FrameForm, LimitForm, Pair};
+use super::{Certificate, ContactForm, FrameForm, LimitForm, Pair, Step};
 
 /// The result of checking a certificate.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,10 +185,20 @@ impl Certificate {
                     format!("frame {n}, grip {k}: a limit is negative")
                 });
             }
+            need(frame.error_faults(&self.bodies).is_none(), &|| {
+                format!("frame {n}: {}", frame.error_faults(&self.bodies).unwrap_or_default())
+            });
             if let Some(forces) = &frame.forces {
                 let (contacts, grips) = (frame.contacts.len(), frame.grips.len());
                 need(forces.contacts.len() == contacts && forces.grips.len() == grips, &|| {
                     format!("frame {n}: the forces are not those of {contacts} contacts and {grips} grips")
+                });
+            }
+            let reactions = frame.forces.iter().flat_map(|forces| &forces.reactions);
+            for (body, entries) in reactions {
+                let count = 3 * (frame.contacts.len() + frame.grips.len());
+                need(is_placed(*body) && entries.iter().all(|(component, _)| *component < count), &|| {
+                    format!("frame {n}: a reaction names a body or a component that is not there")
                 });
             }
             let steps = frame.forces.iter().flat_map(|forces| &forces.order).chain(&frame.still);
@@ -207,15 +217,78 @@ impl Certificate {
         errors
     }
 
-    /// Checks that the forces of a frame, corrected in the given order, balance every body and keep every limit.
+    /// Checks that the forces of a frame, corrected in the given order, balance every body and keep every limit, for all of
+    /// its errors.
     fn force_faults<N: Number>(&self, frame: &FrameForm) -> Vec<String> {
         let Some(forces) = &frame.forces else { return Vec::new() };
         let mut faults = Vec::new();
         let links = self.links(frame);
-        let mut amounts: Vec<N> = forces.contacts.iter().chain(&forces.grips).flatten().map(|v| N::exact(*v)).collect();
+        let amounts = forces.contacts.iter().chain(&forces.grips).flatten().map(|v| N::exact(*v)).collect();
+        let loads = (0..self.bodies.len()).map(|body| self.load(body, frame)).collect();
+        let amounts: Vec<N> = self.corrected(frame, &links, &forces.order, amounts, loads, &mut faults);
+        // By how much the errors of the bodies change the conditions of each contact and grip.
+        let mut spread = vec![[N::zero(), N::zero(), N::zero(), N::zero()]; links.len()];
+        let loose = if frame.errors.is_some() && faults.is_empty() { &frame.placed[..] } else { &[] };
+        for body in loose {
+            let size = N::exact(frame.errors.as_ref().map_or(0.0, |errors| errors.size));
+            let mut own = vec![N::zero(); amounts.len()];
+            let reactions = forces.reactions.iter().filter(|(other, _)| other == body);
+            for (component, amount) in reactions.flat_map(|(_, entries)| entries) {
+                own[*component] = own[*component].plus(&N::exact(*amount).times(&size));
+            }
+            let mut loads = vec![Wrench::zero(); self.bodies.len()];
+            loads[*body].moment = frame.moment(*body, &self.bodies[*body]).unwrap_or_else(|| N::exact(f64::NAN));
+            let own = self.corrected(frame, &links, &forces.order, own, loads, &mut faults);
+            for (link, sums) in spread.iter_mut().enumerate() {
+                for (sum, value) in sums.iter_mut().zip(conditions(frame, link, &own)) {
+                    *sum = sum.plus(&value.magnitude()).reduced();
+                }
+            }
+        }
+        // Check the inequalities of contacts and grips.
+        for (k, contact) in frame.contacts.iter().enumerate() {
+            let mut miss = |by: N, what: &str| {
+                if !by.is_at_most_zero() {
+                    let names = self.names(contact);
+                    faults.push(format!("{names}: {what} by {:.1e} N", by.float() * length_of_normal(contact)));
+                }
+            };
+            let values = conditions(frame, k, &amounts);
+            let texts = ["the first normal force pulls", "the second normal force pulls"];
+            let texts = texts.into_iter().chain(["the friction exceeds its limit"; 2]);
+            for ((value, spread), what) in values.iter().zip(&spread[k]).zip(texts) {
+                miss(spread.minus(value), what);
+            }
+            if contact.points.len() == 1 {
+                miss(values[1].plus(&spread[k][1]), "a second normal force without a point presses");
+            }
+        }
+        for (k, grip) in frame.grips.iter().enumerate() {
+            let link = frame.contacts.len() + k;
+            let values = conditions(frame, link, &amounts);
+            for ((value, spread), limit) in values.iter().zip(&spread[link]).zip(grip.limits) {
+                let by = limit.map(|limit| value.magnitude().plus(spread).minus(&N::exact(limit)));
+                if let Some(by) = by.filter(|by| !by.is_at_most_zero()) {
+                    faults.push(format!("{} exceeds its limit by {:.1e}", grip.robot, by.float()));
+                }
+            }
+        }
+        faults
+    }
+
+    /// Returns the amounts of all components after the corrections in the given order, and adds what is wrong with them.
+    fn corrected<N: Number>(
+        &self,
+        frame: &FrameForm,
+        links: &[Link<N>],
+        order: &[Step],
+        mut amounts: Vec<N>,
+        loads: Vec<Wrench<N>>,
+        faults: &mut Vec<String>,
+    ) -> Vec<N> {
         // The residual of each body: its loads and the forces of its contacts and grips.
-        let mut residual: Vec<Wrench<N>> = (0..self.bodies.len()).map(|body| self.load(body, frame)).collect();
-        for (component, amount) in amounts.iter().enumerate() {
+        let mut residual = loads;
+        for (component, amount) in amounts.iter().enumerate().filter(|(_, amount)| !amount.is_zero()) {
             let link = &links[component / 3];
             let wrench = link.wrenches[component % 3].times(amount);
             if let Some(from) = link.from {
@@ -225,7 +298,7 @@ impl Certificate {
         }
         // Carry the residuals on to the next bodies, by changes of the forces.
         let mut done = vec![false; self.bodies.len()];
-        for (bodies, components) in &forces.order {
+        for (bodies, components) in order {
             let leads_on = components.iter().all(|component| {
                 let ends = links[component / 3].bodies();
                 ends.iter().any(|body| bodies.contains(body)) && ends.iter().all(|body| !done[*body])
@@ -236,7 +309,7 @@ impl Certificate {
                 faults.push(format!("the order of the corrections is wrong at {}", names()));
                 continue;
             }
-            let Some(changes) = correction(&links, &residual, bodies, components) else {
+            let Some(changes) = correction(links, &residual, bodies, components) else {
                 faults.push(format!("the forces that correct {} cannot carry what is left over", names()));
                 continue;
             };
@@ -267,33 +340,7 @@ impl Certificate {
                 faults.push(format!("{} does not balance by {worst:.1e} N", self.bodies[*index].id));
             }
         }
-        // Check the inequalities of contacts and grips.
-        for (k, contact) in frame.contacts.iter().enumerate() {
-            let [n1, n2, t] = [0, 1, 2].map(|i| &amounts[3 * k + i]);
-            let mut miss = |by: N, what: &str| {
-                if !by.is_at_most_zero() {
-                    let names = self.names(contact);
-                    faults.push(format!("{names}: {what} by {:.1e} N", by.float() * length_of_normal(contact)));
-                }
-            };
-            miss(n1.negative(), "the first normal force pulls");
-            miss(n2.negative(), "the second normal force pulls");
-            if contact.points.len() == 1 {
-                miss(n2.clone(), "a second normal force without a point presses");
-            }
-            let limit = N::exact(contact.friction).times(&n1.plus(n2));
-            miss(t.magnitude().minus(&limit), "the friction exceeds its limit");
-        }
-        for (k, grip) in frame.grips.iter().enumerate() {
-            for (component, limit) in grip.limits.iter().enumerate().filter_map(|(i, limit)| Some((i, (*limit)?))) {
-                let amount = amounts[3 * (frame.contacts.len() + k) + component].magnitude();
-                let by = amount.minus(&N::exact(limit));
-                if !by.is_at_most_zero() {
-                    faults.push(format!("{} exceeds its limit by {:.1e}", grip.robot, by.float()));
-                }
-            }
-        }
-        faults
+        amounts
     }
 
     /// Checks that no force of a contact or of a grip can resist the motion of a frame, and that its loads do work.
@@ -370,6 +417,14 @@ impl Certificate {
     }
 }
 
+/// Returns what must be at least 0 at a contact, N₁, N₂, and μ (N₁ + N₂) ∓ T; or the components of a grip.
+fn conditions<N: Number>(frame: &FrameForm, link: usize, amounts: &[N]) -> [N; 4] {
+    let [n1, n2, t] = [0, 1, 2].map(|i| amounts[3 * link + i].clone());
+    let Some(contact) = frame.contacts.get(link) else { return [n1, n2, t, N::zero()] };
+    let limit = N::exact(contact.friction).times(&n1.plus(&n2));
+    [n1, n2, limit.minus(&t), limit.plus(&t)]
+}
+
 /// Returns by how much the components are changed so that the bodies balance exactly; `None` if no changes do.
 fn correction<N: Number>(
     links: &[Link<N>],
@@ -379,6 +434,9 @@ fn correction<N: Number>(
 ) -> Option<Vec<N>> {
     let column =
         |component: &usize, body: usize| links[component / 3].on_body(component % 3, body).unwrap_or_else(Wrench::zero);
+    if bodies.iter().all(|body| residual[*body].entries().iter().all(|v| v.is_zero())) {
+        return Some(vec![N::zero(); components.len()]);
+    }
     if let ([body], [_, _, _]) = (bodies, components) {
         let columns: Vec<Wrench<N>> = components.iter().map(|component| column(component, *body)).collect();
         if let Some(changes) = solve(&columns, &residual[*body].negative()) {

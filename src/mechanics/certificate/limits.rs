@@ -4,17 +4,19 @@ use super::{Certificate, Change, FrameForm, LimitForm, LoadForm};
 use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::analysis::{Cases, End, FrameAnalysis, Interval, LoadCapacity, Verdict, extremes};
 use crate::mechanics::proof::Motion;
+use crate::mechanics::scene::Scene;
 use crate::mechanics::statics::assembly::{Assembly, load_about};
 
 /// How far from an end the two sides are proved, relative to its size: the first distance at which both the numbers of
 /// the margin and the exact correction leave room.
-const DISTANCES: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
+pub(super) const DISTANCES: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 
 /// The size of an end at 0, as a share of 1 or of the heaviest load.
 const LEAST_SIZE: f64 = 1e-3;
 
 /// A frame whose margins and capacity are proved.
 pub(super) struct Limits<'a> {
+    pub scene: &'a Scene,
     pub certificate: &'a Certificate,
     pub bare: &'a FrameForm,
     pub assembly: &'a Assembly,
@@ -66,6 +68,9 @@ impl Limits<'_> {
         }
         if let Some(capacity) = &self.found.capacity {
             self.add_capacity(&mut proofs, capacity);
+        }
+        if let Some(placement) = &self.found.placement {
+            self.add_placement(&mut proofs, placement);
         }
         proofs
     }
@@ -169,7 +174,7 @@ impl Limits<'_> {
     }
 
     /// Returns the proof nearest to an end that is exact, or else the farthest one that was tried.
-    fn proof(
+    pub(super) fn proof(
         &self,
         of: &str,
         verdict: Verdict,
@@ -184,15 +189,7 @@ impl Limits<'_> {
                 Verdict::Stable => self.certificate.standing(&bare, &assembly, None),
                 _ => self.certificate.falling(&bare, &assembly, mechanism),
             };
-            last = Some(LimitForm {
-                frame: self.bare.frame,
-                of: of.to_owned(),
-                change,
-                verdict: proved.verdict,
-                forces: proved.forces,
-                motion: proved.motion,
-                still: proved.still,
-            });
+            last = Some(LimitForm::new(of, change, proved));
             if faults.is_empty() {
                 break;
             }

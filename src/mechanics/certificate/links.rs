@@ -24,6 +24,11 @@ impl Certificate {
         if let Some((_, load)) = frame.force.as_ref().filter(|(body, _)| *body == index) {
             add(load, 1.0);
         }
+        let errors = frame.errors.iter().flat_map(|errors| &errors.pattern);
+        for (_, sign) in errors.filter(|(body, _)| *body == index) {
+            let moment = frame.moment(index, body).unwrap_or_else(|| N::exact(f64::NAN));
+            sum.moment = sum.moment.plus(&moment.times(&N::exact(*sign)));
+        }
         sum
     }
 
@@ -33,7 +38,8 @@ impl Certificate {
             let [on, from] = contact.bodies;
             let normal = normal_of(contact);
             let ends = ends(contact);
-            let inward = N::exact(frame.kernel / 2.0);
+            let errors = frame.inset(contact).unwrap_or_else(|| N::exact(f64::NAN));
+            let inward = N::exact(frame.kernel / 2.0).plus(&errors);
             let points = [ends[0].toward(&ends[1], &inward), ends[1].toward(&ends[0], &inward)];
             let wrenches = [
                 Wrench::of_force(&normal, &points[0]),

@@ -56,7 +56,7 @@ impl Certificate {
             certificate.frames.push(proved);
             certificate
                 .limits
-                .extend(Limits { certificate: &certificate, bare: &bare, assembly: &assembly, found }.all());
+                .extend(Limits { scene, certificate: &certificate, bare: &bare, assembly: &assembly, found }.all());
             if found.verdict != Verdict::Undecided && found.exact.is_none() {
                 found.exact = Some(faults.is_empty());
                 let notice = |fault| format!("the verdict is not proved in exact arithmetic: {fault}");
@@ -116,7 +116,7 @@ impl Certificate {
     /// Adds forces, in newtons, and the order of their correction. `None` if the components by which single bodies are
     /// corrected have less slack than `room` newtons. Without `room`, forces that are nearly 0 become 0, and all bodies
     /// that touch are corrected in one step.
-    fn with_forces(
+    pub(super) fn with_forces(
         &self,
         bare: &FrameForm,
         assembly: &Assembly,
@@ -146,7 +146,8 @@ impl Certificate {
                 _ => [(n1 + n2) / length, 0.0, t / length],
             }
         });
-        let forces = ForcesForm { contacts: contacts.collect(), grips: of_grips.to_vec(), order };
+        let forces =
+            ForcesForm { contacts: contacts.collect(), grips: of_grips.to_vec(), order, reactions: Vec::new() };
         Some(FrameForm { forces: Some(forces), ..bare.clone() })
     }
 }
@@ -168,6 +169,7 @@ fn frame_form(scene: &Scene, assembly: &Assembly, number: usize, verdict: Verdic
         load_factor: 1.0,
         kernel: scene.kernel,
         force: None,
+        errors: None,
         placed: (0..assembly.bodies.len()).map(body_of).collect(),
         contacts: assembly.contacts.iter().map(|contact| contact_form(contact, first_block)).collect(),
         grips: grips.collect(),
@@ -252,7 +254,7 @@ fn normal_of(contact: &ContactForm) -> Vector {
 }
 
 /// Returns, for each contact N₁, N₂ and T and for each grip force x, force y and torque, the forces of the analysis.
-fn listed_forces(assembly: &Assembly, found: &FrameAnalysis) -> Vec<[f64; 3]> {
+pub(super) fn listed_forces(assembly: &Assembly, found: &FrameAnalysis) -> Vec<[f64; 3]> {
     let contacts = assembly.contacts.iter().map(|contact| {
         let listed = &found.contacts[contact.interface];
         [listed.normal_forces[0], listed.normal_forces[1], listed.friction_force]

@@ -20,6 +20,7 @@ mod limits;
 mod links;
 mod make;
 mod number;
+mod placement;
 mod places;
 mod stand;
 
@@ -33,6 +34,9 @@ pub type Pair = [f64; 2];
 /// Bodies and components of forces for which equations are solved exactly. Component 3k + i is number i (0, 1, 2) of
 /// contact k; the grips follow the contacts.
 pub type Step = (Vec<usize>, Vec<usize>);
+
+/// Values of some bodies, or of some components of forces, by their number.
+pub type Sparse = Vec<(usize, f64)>;
 
 /// The proofs of a scene's frames, and the structure that they are about.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -134,6 +138,9 @@ pub struct FrameForm {
     /// A further load on a body, which no load factor multiplies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<(usize, LoadForm)>,
+    /// The errors of a changed frame.
+    #[serde(skip)]
+    pub errors: Option<ErrorsForm>,
     /// The indices of the blocks that are placed. The ground is always there.
     pub placed: Vec<usize>,
     /// The contacts.
@@ -196,6 +203,24 @@ pub struct ForcesForm {
     /// In each step, the components are changed so that the bodies balance exactly. The other body of a component is
     /// ground, or is corrected in a later step.
     pub order: Vec<Step>,
+    /// If the frame stands for all errors: for each body, the components of the forces that balance the largest additional
+    /// moment of this body, for each metre of the size of the errors.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reactions: Vec<(usize, Sparse)>,
+}
+
+/// Errors in the places of joints, centres of gravity and loads.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ErrorsForm {
+    /// The size of the errors, metres.
+    pub size: f64,
+    /// The factors on the errors of some bodies. That of the others is 1, and that of the ground 0.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub scales: Sparse,
+    /// If the frame falls: for each body the share, −1 to 1, of its largest additional moment, anticlockwise positive.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pattern: Sparse,
 }
 
 /// The motion of a rigid body.
@@ -235,6 +260,13 @@ pub struct LimitForm {
     pub still: Vec<Step>,
 }
 
+impl LimitForm {
+    fn new(of: &str, change: Change, proved: FrameForm) -> LimitForm {
+        let FrameForm { frame, verdict, forces, motion, still, .. } = proved;
+        LimitForm { frame, of: of.to_owned(), change, verdict, forces, motion, still }
+    }
+}
+
 /// The keys of a frame that a changed frame has with other values.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -254,6 +286,9 @@ pub struct Change {
     /// A further load on a body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force: Option<(usize, LoadForm)>,
+    /// The errors up to which the frame stands, or with which it falls.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub errors: Option<ErrorsForm>,
     /// The limits of each grip.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grip_limits: Option<Vec<[Option<f64>; 3]>>,
@@ -272,6 +307,7 @@ impl Change {
             gravity: self.gravity.unwrap_or(frame.gravity),
             kernel: self.kernel.unwrap_or(frame.kernel),
             force: self.force.clone().or_else(|| frame.force.clone()),
+            errors: self.errors.clone(),
             ..frame.without_proof()
         };
         changed.contacts.iter_mut().for_each(|contact| contact.friction = self.friction.unwrap_or(contact.friction));

@@ -52,16 +52,14 @@ pub(super) fn slack_forces(assembly: &Assembly) -> Option<Vec<[f64; 3]>> {
 fn forces_of(assembly: &Assembly, solve: impl Fn(&mut Program) -> Option<(Amounts, f64)>) -> Option<Vec<[f64; 3]>> {
     let count = assembly.contacts.len();
     let mut forces = vec![[0.0; 3]; count + assembly.grips.len()];
-    let of_contact: BTreeMap<_, _> = assembly.contacts.iter().map(|c| c.interface).zip(0..).collect();
-    let of_grip: BTreeMap<_, _> = assembly.grips.iter().map(|g| g.hold).zip(count..).collect();
     for component in assembly.components() {
         let mut program = Program::new(&component, Scale::from_assembly(&component));
         for limit in program.grips.iter_mut().flat_map(|grip| &mut grip.limits) {
             *limit *= 1.0 - SLACK_OF_ROBOTS;
         }
-        let contacts = component.contacts.iter().map(|contact| of_contact[&contact.interface]);
-        let grips = component.grips.iter().map(|grip| of_grip[&grip.hold]);
-        let places: Vec<usize> = contacts.chain(grips).collect();
+        let interfaces: Vec<usize> = component.contacts.iter().map(|contact| contact.interface).collect();
+        let holds: Vec<usize> = component.grips.iter().map(|grip| grip.hold).collect();
+        let places = links_of(assembly, &interfaces, &holds);
         let (amounts, slack) = solve(&mut program)?;
         let unit = program.scale.force;
         let (contacts, grips) = places.split_at(component.contacts.len());
@@ -76,6 +74,13 @@ fn forces_of(assembly: &Assembly, solve: impl Fn(&mut Program) -> Option<(Amount
         }
     }
     Some(forces)
+}
+
+/// Returns the places of contacts and of grips, given by their indices in the frame, in the order of [`listed_forces`].
+pub(super) fn links_of(assembly: &Assembly, interfaces: &[usize], holds: &[usize]) -> Vec<usize> {
+    let of_contact: BTreeMap<_, _> = assembly.contacts.iter().map(|c| c.interface).zip(0..).collect();
+    let of_grip: BTreeMap<_, _> = assembly.grips.iter().map(|g| g.hold).zip(assembly.contacts.len()..).collect();
+    interfaces.iter().map(|i| of_contact[i]).chain(holds.iter().map(|i| of_grip[i])).collect()
 }
 
 /// A component of a force that may change, with the force and moment about the body's centroid that it exerts, and its

@@ -70,10 +70,18 @@ const SHARE_OF_GAIN: f64 = 0.98;
 /// The accuracy of the programs for new forces, as a share of that of the master program, with its bounds.
 const NEW_ACCURACY: (f64, f64, f64) = (0.1, 1e-9, 1e-5);
 
+/// The largest tolerance of all, in units of the model.
+pub(super) const MOST: f64 = 1e3;
+
 /// The result of the method, in units of the model.
+#[derive(Default)]
 pub(super) struct Robust {
     /// The largest tolerance with a proof.
     pub proved: f64,
+    /// The proof: x₀.
+    pub forces: Vec<f64>,
+    /// The proof: for each loose body, its number and xᵢ for a moment of 1.
+    pub reactions: Vec<(usize, Vec<f64>)>,
     /// The velocities of the motion that is nearest to failing, three for each body.
     pub motion: Vec<f64>,
     /// The row with the largest power in this motion.
@@ -82,26 +90,30 @@ pub(super) struct Robust {
     pub is_cut: bool,
 }
 
+/// A tolerance with x₀ and the xᵢ that prove it, as in [`Robust`].
+type Proof = (f64, Vec<f64>, Vec<(usize, Vec<f64>)>);
+
 /// Forces that balance a moment of 1 on a body.
 struct Reaction {
     body: usize,
     forces: Vec<f64>,
 }
 
-/// Finds the largest tolerance that affine forces prove.
-pub(super) fn largest_tolerance(model: &Model) -> Robust {
-    let end = model.end_of_joints();
+/// Finds the largest tolerance that affine forces prove. With an `aim`, it is searched for only at this tolerance, and
+/// the search ends as soon as the aim is proved, or proves to be too large.
+pub(super) fn largest_tolerance(model: &Model, aim: Option<f64>) -> Robust {
+    let end = aim.unwrap_or_else(|| model.end_of_joints());
     let loose: Vec<usize> = (0..model.moments.len()).filter(|body| model.moments[*body] > 0.0).collect();
     let mut known = Vec::new();
     for body in &loose {
         let (forces, residual) = model.balanced(vec![0.0; model.columns.len()], &model.unit_moment(*body));
         if residual > MAX_RESIDUAL {
-            return Robust { proved: 0.0, motion: Vec::new(), row: None, is_cut: false };
+            return Robust::default();
         }
         known.push(Reaction { body: *body, forces });
     }
-    let mut found = Robust { proved: 0.0, motion: Vec::new(), row: None, is_cut: true };
-    let (mut tolerance, mut too_large) = (0.0, f64::INFINITY);
+    let mut found = Robust { is_cut: true, ..Robust::default() };
+    let (mut tolerance, mut too_large) = (aim.unwrap_or(0.0), f64::INFINITY);
     // Tolerances of solvers are absolute, and the forces on the lightest body must be accurate too.
     let lightest = loose.iter().map(|body| model.moments[*body]).fold(1.0, f64::min);
     let mut accuracy = (FIRST_TOLERANCE * lightest).max(TOLERANCE);
@@ -113,7 +125,7 @@ pub(super) fn largest_tolerance(model: &Model) -> Robust {
         let Some(master) = Master::solve(model, &rows, &known, accuracy) else {
             // Probably no forces balance the component with joints as short as this.
             too_large = tolerance;
-            if too_large - found.proved <= GAP * too_large {
+            if too_large - found.proved <= GAP * too_large || aim.is_some() {
                 return found;
             }
             tolerance = found.proved + (too_large - found.proved) / 2.0;
@@ -121,10 +133,10 @@ pub(super) fn largest_tolerance(model: &Model) -> Robust {
             continue;
         };
         let weights = &master.multipliers;
-        if let Some(proved) = master.proved(model, &rows, &known)
+        if let Some((proved, forces, reactions)) = master.proved(model, &rows, &known)
             && proved.min(tolerance) >= found.proved
         {
-            found.proved = proved.min(tolerance);
+            (found.proved, found.forces, found.reactions) = (proved.min(tolerance), forces, reactions);
         }
         found.motion.clone_from(&master.motion);
         found.row = weights.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map(|(row, _)| row);
@@ -134,7 +146,11 @@ pub(super) fn largest_tolerance(model: &Model) -> Robust {
         }
         let new = cheapest_reactions(model, tolerance, &rows, weights, &loose, accuracy);
         let least: f64 = new.iter().map(|(reaction, cost)| model.moments[reaction.body] * cost).sum();
-        let next = master.next(model, &rows, &known, tolerance).clamp(0.0, end);
+        // No means of any forces have a larger d than this one over the least sum.
+        if aim.is_some_and(|aim| master.largest < 0.99 * aim * least) {
+            return found;
+        }
+        let next = aim.unwrap_or_else(|| master.next(model, &rows, &known, tolerance).clamp(0.0, end));
         let next = if next < too_large { next } else { found.proved + (too_large - found.proved) / 2.0 };
         let is_still = (next - tolerance).abs() <= GAP * next.max(tolerance) || tolerance == 0.0 && next == 0.0;
         let is_proved = found.proved >= (1.0 - 2.0 * GAP) * next;
@@ -149,7 +165,7 @@ pub(super) fn largest_tolerance(model: &Model) -> Robust {
         known = master.renewed(model, &rows, known, new, LEAST_SHARE.min(accuracy));
         let gap = (1.0 - least).max((next - tolerance).abs() / next.max(tolerance));
         // Where the tolerance stands still but is not proved, only more accurate multipliers find better forces.
-        let most = if is_still { 0.1 * accuracy } else { accuracy };
+        let most = if is_still && aim.is_none() { 0.1 * accuracy } else { accuracy };
         accuracy = (TOLERANCE_OF_GAP * gap * lightest).min(most).max(TOLERANCE);
         tolerance = next;
     }
@@ -217,9 +233,9 @@ impl Master {
             matrix.push((bound.len(), place, -1.0));
             bound.push(0.0);
         }
-        // With no reactions at all, the tolerance needs a bound of its own.
+        // Without joints, the tolerance needs a bound of its own.
         matrix.push((bound.len(), largest, 1.0));
-        bound.push(1e3);
+        bound.push(MOST);
         let mut linear = vec![0.0; end];
         linear[largest] = -1.0;
         let problem =
@@ -251,16 +267,18 @@ impl Master {
         means.collect()
     }
 
-    /// Returns the largest d in front of the sum that these forces prove by arithmetic alone; `None` if they do not
-    /// balance.
-    fn proved(&self, model: &Model, rows: &[Row], known: &[Reaction]) -> Option<f64> {
+    /// Returns the largest d in front of the sum that these forces prove by arithmetic alone, x₀ and the xᵢ; `None` if they
+    /// do not balance.
+    fn proved(&self, model: &Model, rows: &[Row], known: &[Reaction]) -> Option<Proof> {
         let (forces, residual) = model.balanced(self.forces.clone(), &model.loads);
         let mut worst = residual;
         let mut sums = vec![0.0; rows.len()];
-        for (body, mean) in self.means(model, known) {
-            let (mean, residual) = model.balanced(mean, &model.unit_moment(body));
+        let mut means = self.means(model, known);
+        for (body, mean) in &mut means {
+            let residual;
+            (*mean, residual) = model.balanced(std::mem::take(mean), &model.unit_moment(*body));
             worst = worst.max(residual);
-            sums.iter_mut().zip(rows).for_each(|(sum, row)| *sum += row.times(&mean).abs() * model.moments[body]);
+            sums.iter_mut().zip(rows).for_each(|(sum, row)| *sum += row.times(mean).abs() * model.moments[*body]);
         }
         if worst > MAX_RESIDUAL || sums.iter().chain(&forces).any(|value| !value.is_finite()) {
             return None;
@@ -275,7 +293,7 @@ impl Master {
                 proved = proved.min(room / sum);
             }
         }
-        Some(proved)
+        Some((proved, forces, means))
     }
 
     /// Returns the tolerance at which both values of d are expected to be equal: one step of Newton's method.

@@ -14,7 +14,7 @@ mod pattern;
 #[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-use self::affine::{GAP, largest_tolerance};
+use self::affine::{GAP, MOST, Robust, largest_tolerance};
 use self::model::Model;
 use self::pattern::Errors;
 use crate::geometry::{Vector, quarter_turn};
@@ -25,6 +25,9 @@ use crate::mechanics::statics::assembly::Assembly;
 
 /// The largest number of bodies of a component whose tolerance is computed.
 const MAX_BODIES: usize = 600;
+
+/// A block that only robots hold has no limit if its tolerance is above this, in units of the model.
+const UNBOUNDED: f64 = 0.99 * MOST;
 
 /// An interval between proof and fall of at most this share leaves nothing to search.
 const CLOSED: f64 = 1e-4;
@@ -52,6 +55,51 @@ pub struct Placement {
     pub blocks: Vec<BlockPlacement>,
     /// Why the proved tolerance is not larger.
     pub limited_by: PlacementLimit,
+    /// The proof of each component.
+    pub(crate) proofs: Vec<PlacementProof>,
+}
+
+/// The forces that prove the tolerance of a component, with numbers of components of forces: 3k + i is N₁, N₂ or T of
+/// contact k; force x, force y and torque of the grips follow.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PlacementProof {
+    /// The indices of the contacts among those of the frame.
+    pub interfaces: Vec<usize>,
+    /// The indices of the grips among those of the frame.
+    pub holds: Vec<usize>,
+    /// The forces without errors, N, at the ends of the contacts.
+    pub forces: Vec<(usize, f64)>,
+    /// For each block, the forces that balance the moments of its weight and loads for each metre of the tolerance, N/m.
+    pub reactions: Vec<(BlockId, Vec<(usize, f64)>)>,
+}
+
+/// Entries of a reaction up to this share of the largest one are rounding errors.
+const NEGLIGIBLE: f64 = 1e-12;
+
+impl PlacementProof {
+    fn new(component: &Assembly, model: &Model, robust: &Robust) -> PlacementProof {
+        let grips = 3 * component.contacts.len();
+        let listed = |forces: &[f64], factor: f64| {
+            let least = NEGLIGIBLE * forces.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+            let used = model.components.iter().zip(forces).filter(|(_, force)| force.abs() > least);
+            let used = used.map(|(number, force)| {
+                let is_torque = *number >= grips && number % 3 == 2;
+                (*number, force * factor * if is_torque { model.metres } else { 1.0 })
+            });
+            used.collect::<Vec<_>>()
+        };
+        let reactions = robust.reactions.iter().map(|(body, forces)| {
+            // The errors of the model are in its unit of length.
+            let factor = -model.moments[*body] * model.newtons / model.metres;
+            (component.bodies[*body].block, listed(forces, factor))
+        });
+        PlacementProof {
+            interfaces: component.contacts.iter().map(|contact| contact.interface).collect(),
+            holds: component.grips.iter().map(|grip| grip.hold).collect(),
+            forces: listed(&robust.forces, model.newtons),
+            reactions: reactions.collect(),
+        }
+    }
 }
 
 /// The error of one block.
@@ -106,23 +154,44 @@ pub(super) fn find_placement<'a>(scene: &Scene, components: impl Iterator<Item =
             (worse.proved, worse.limited_by) = (other.proved, other.limited_by);
         }
         worse.blocks.extend(other.blocks);
+        worse.proofs.extend(other.proofs);
         worse.blocks.sort_by_key(|own| own.block);
         worse
     })
 }
 
-/// Computes the placement tolerance of one component. `None` if none of its bodies can be off its place.
-fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
+impl Placement {
+    /// Returns the sense of the additional moment of each body in the pattern, 1 for anticlockwise, and the assembly with
+    /// the errors of this pattern, of a size in metres.
+    pub(crate) fn with_errors(&self, scene: &Scene, component: &Assembly, error: f64) -> (Vec<f64>, Assembly) {
+        let side = quarter_turn(component.pull);
+        let signs = component.bodies.iter().map(|body| {
+            let own = self.pattern.iter().find(|error| error.block == body.block);
+            own.map_or(0.0, |error| -error.offset.dot(&side).signum())
+        });
+        let signs: Vec<f64> = signs.collect();
+        let (moments, scales) = moments_of(scene, component);
+        let moved = Errors { component, moments: &moments, scales: &scales }.placed(error, &signs);
+        (signs, moved)
+    }
+}
+
+/// Returns the moment of each body per metre of error, N, and the factor on the error of each.
+fn moments_of(scene: &Scene, component: &Assembly) -> (Vec<f64>, Vec<f64>) {
     let loads = |block: BlockId| {
         let own = scene.loads.iter().filter(|load| load.block == block);
         own.map(|load| load.force.norm()).sum::<f64>()
     };
     let bodies = component.bodies.iter();
-    let moments: Vec<f64> = bodies
-        .map(|body| body.weight * component.pull.norm() + component.load_factor.abs() * loads(body.block))
-        .collect();
-    let scales: Vec<f64> = component.bodies.iter().map(|body| scene.blocks[body.block.0].placement).collect();
-    if component.contacts.is_empty() || scales.iter().all(|scale| *scale == 0.0) {
+    let moments =
+        bodies.map(|body| body.weight * component.pull.norm() + component.load_factor.abs() * loads(body.block));
+    (moments.collect(), component.bodies.iter().map(|body| scene.blocks[body.block.0].placement).collect())
+}
+
+/// Computes the placement tolerance of one component. `None` if none of its bodies can be off its place.
+fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
+    let (moments, scales) = moments_of(scene, component);
+    if component.contacts.is_empty() && component.grips.is_empty() || scales.iter().all(|scale| *scale == 0.0) {
         return None;
     }
     let mut found = Placement {
@@ -134,6 +203,7 @@ fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
         block: None,
         blocks: Vec::new(),
         limited_by: PlacementLimit::Balance,
+        proofs: Vec::new(),
     };
     if component.bodies.len() > MAX_BODIES {
         return Some(Placement { limited_by: PlacementLimit::TooManyBlocks, ..found });
@@ -141,15 +211,29 @@ fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
     let Some(model) = Model::new(component, &moments, &scales) else {
         return Some(Placement { limited_by: PlacementLimit::PointContact, ..found });
     };
-    let robust = largest_tolerance(&model);
+    let end = model.end_of_joints() * (1.0 - GAP);
+    let mut best = without_shortest(component, &model, &moments, &scales);
+    if best.as_ref().is_none_or(|(short, _)| short.proved < end && !is_late()) {
+        let robust = largest_tolerance(&model, None);
+        if best.as_ref().is_none_or(|(short, _)| short.proved <= robust.proved) {
+            let proof = PlacementProof::new(component, &model, &robust);
+            best = Some((robust, proof));
+        }
+    }
+    let (robust, proof) = best?;
+    if component.contacts.is_empty() && robust.proved > UNBOUNDED {
+        return None;
+    }
     found.proved = robust.proved * model.metres;
-    if robust.proved >= model.end_of_joints() * (1.0 - GAP) {
+    found.proofs = vec![proof];
+    let mut joint = robust.row.and_then(|row| model.contact_of_row(row));
+    if robust.proved >= end {
         found.limited_by = PlacementLimit::JointLength;
+        joint = model.shortest().next();
     } else if robust.is_cut {
         found.limited_by = if is_late() { PlacementLimit::TimeLimit } else { PlacementLimit::Search };
     }
-    found.joint =
-        robust.row.and_then(|row| model.contact_of_row(row)).map(|contact| component.contacts[contact].interface);
+    found.joint = joint.map(|contact| component.contacts[contact].interface);
     let errors = Errors { component, moments: &moments, scales: &scales };
     if let Some(falling) = errors.falling(&model, &robust.motion, found.proved) {
         let side = quarter_turn(component.pull).try_normalize(0.0).unwrap_or_default();
@@ -177,6 +261,25 @@ fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
     // What holds for the errors of all blocks holds for those of one.
     found.blocks.iter_mut().for_each(|own| own.proved = own.proved.max(found.proved));
     Some(found)
+}
+
+/// Proves that a component stands even without its shortest joints, as a wall stands without its head joints, until these
+/// have no length left. `None` if no joints are left.
+fn without_shortest(
+    component: &Assembly,
+    model: &Model,
+    moments: &[f64],
+    scales: &[f64],
+) -> Option<(Robust, PlacementProof)> {
+    let short: Vec<usize> = model.shortest().collect();
+    let mut rest = component.clone();
+    rest.contacts =
+        component.contacts.iter().enumerate().filter(|(k, _)| !short.contains(k)).map(|(_, c)| *c).collect();
+    let aim = model.end_of_joints();
+    let model = if rest.contacts.is_empty() { return None } else { Model::new(&rest, moments, scales)? };
+    let robust = Robust { row: None, ..largest_tolerance(&model, Some(aim)) };
+    let proof = PlacementProof::new(&rest, &model, &robust);
+    Some((robust, proof))
 }
 
 /// Computes for each body how far it alone may be off.

@@ -67,6 +67,10 @@ pub(super) struct Model {
     pub moments: Vec<f64>,
     /// Metres per unit of length.
     pub metres: f64,
+    /// Newtons per unit of force.
+    pub newtons: f64,
+    /// The component of each unknown: 3k + i for number i of contact k; the grips follow the contacts.
+    pub components: Vec<usize>,
     joints: Vec<Joint>,
     grips: Vec<(usize, f64)>,
     normal: Option<Cholesky<f64, Dyn>>,
@@ -79,9 +83,9 @@ impl Model {
         let scale = Scale::from_assembly(component);
         let program = Program::new(component, scale);
         let unit = scale.force * Scale::HEAVIEST;
-        let mut columns = Vec::new();
+        let (mut columns, mut components) = (Vec::new(), Vec::new());
         let mut joints = Vec::new();
-        for (contact, term) in component.contacts.iter().zip(&program.contacts) {
+        for (k, (contact, term)) in component.contacts.iter().zip(&program.contacts).enumerate() {
             if term.points < 2 {
                 return None;
             }
@@ -91,6 +95,7 @@ impl Model {
             for (direction, point) in [(term.normal, 0), (term.normal, 1)].into_iter().chain(friction) {
                 let own = (term.on.0, term.on.1[point], direction);
                 let other = term.from.map(|(body, arms)| (body, arms[point], -direction));
+                components.push(3 * k + columns.len() - first);
                 columns.push([Some(own), other].into_iter().flatten().flat_map(force_entries).collect());
             }
             let error = contact.from.map_or(0.0, |body| scales[body]).max(scales[contact.on]);
@@ -98,10 +103,11 @@ impl Model {
             joints.push(Joint { first, friction: term.friction, rate: error / length });
         }
         let mut grips = Vec::new();
-        for grip in &program.grips {
-            for component in (0..3).filter(|component| grip.limits[*component] > 0.0) {
-                grips.push((columns.len(), grip.limits[component] / Scale::HEAVIEST));
-                columns.push(match component {
+        for (k, grip) in program.grips.iter().enumerate() {
+            for number in (0..3).filter(|number| grip.limits[*number] > 0.0) {
+                grips.push((columns.len(), grip.limits[number] / Scale::HEAVIEST));
+                components.push(3 * (component.contacts.len() + k) + number);
+                columns.push(match number {
                     0 => force_entries((grip.block, grip.arm, Vector::new(1.0, 0.0))).collect(),
                     1 => force_entries((grip.block, grip.arm, Vector::new(0.0, 1.0))).collect(),
                     _ => vec![(3 * grip.block + 2, 1.0)],
@@ -124,13 +130,20 @@ impl Model {
             normal[(row, row)] += REGULARISATION * largest;
         }
         let normal = Cholesky::new(normal);
-        Some(Model { columns, loads, moments, metres: scale.length, joints, grips, normal })
+        let metres = scale.length;
+        Some(Model { columns, loads, moments, metres, newtons: unit, components, joints, grips, normal })
     }
 
     /// Returns the largest error that leaves every joint a thousandth of its length.
     pub fn end_of_joints(&self) -> f64 {
         let rates = self.joints.iter().map(|joint| joint.rate);
         LARGEST_ERROR / rates.fold(0.0, f64::max)
+    }
+
+    /// Returns the joints that leave the least room for errors.
+    pub fn shortest(&self) -> impl Iterator<Item = usize> {
+        let least = LARGEST_ERROR / self.end_of_joints() * (1.0 - 1e-6);
+        self.joints.iter().enumerate().filter(move |(_, joint)| joint.rate >= least).map(|(k, _)| k)
     }
 
     /// Returns the rows at a tolerance. Their number and order do not depend on it.

@@ -123,7 +123,7 @@ impl Errors<'_> {
                 return None;
             }
             *(if rest > 0.0 { &mut low } else { &mut high }) = at;
-            if is_late() || high - low <= accuracy * high {
+            if is_late() || high.is_finite() && high - low <= accuracy * high {
                 return Some(high);
             }
             let next = (at + rest / (1.0 - limit.slope)).min(end);
@@ -190,12 +190,13 @@ impl Errors<'_> {
         });
         // The first side starts from no error, the second one from the limit of the first: it may be farther.
         for (signs, is_first) in sides.iter().zip([true, false]) {
-            let start = if is_first { 0.0 } else { least };
+            let start = if is_first || least.is_infinite() { 0.0 } else { least };
             if let Some(at) = self.root(signs, start, least, OWN_ACCURACY) {
                 least = at;
             }
         }
-        WITHIN.into_iter().map(|share| least * (1.0 - share)).find(|error| {
+        let errors = WITHIN.into_iter().map(|share| least * (1.0 - share));
+        errors.filter(|error| error.is_finite()).find(|error| {
             sides.iter().all(|signs| {
                 let moved = self.placed(*error, signs);
                 decide_verdict(&moved, LimitDistance::Unknown, &mut ProofCache::default()).0 == Verdict::Stable
