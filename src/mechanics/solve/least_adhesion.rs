@@ -148,7 +148,7 @@ fn without_power(loads: &[f64], y: &[f64]) -> Vec<f64> {
     // Scale the velocities to 1 first, so that their squares do not overflow.
     let fastest = largest(y);
     let power: f64 = loads.iter().zip(y).map(|(load, v)| load * v / fastest).sum();
-    let squares: f64 = y.iter().map(|v| (v / fastest).powi(2)).sum();
+    let squares: f64 = y.iter().map(|v| v / fastest * (v / fastest)).sum();
     loads.iter().zip(y).map(|(load, v)| load - power / squares * v / fastest).collect()
 }
 

@@ -301,12 +301,12 @@ fn no_pull_acts_on_a_lever_arm_of_rounding() {
                    { "id": "5", "polygon": [[1, 0.75], [2.5, 0.75], [2.5, 1.75], [1, 1.75]], "weight": 3 },
                    { "id": "6", "polygon": [[2.5, 0.75], [3, 0.75], [3, 1.75], [2.5, 1.75]], "weight": 8 }],
         "loads": [{ "block": "2", "force": [-2e-9, 0] }] }"#;
-    let analysis = Analysis::new(&Scene::from_json(file).expect("a sound scene"));
+    let analysis = Analysis::new(Scene::from_json(file).expect("a sound scene"));
     assert!((analysis.frames[0].total_sticking - 8.0).abs() < 1e-6, "{}", analysis.frames[0].total_sticking);
     // A block that nothing can hold: the result says so, and lists no force.
     let last = include_str!("routes.ndjson").lines().last().expect("a scene");
     let known: serde_json::Value = serde_json::from_str(last).expect("JSON");
-    let analysis = Analysis::new(&Scene::from_json(&known["scene"].to_string()).expect("a sound scene"));
+    let analysis = Analysis::new(Scene::from_json(&known["scene"].to_string()).expect("a sound scene"));
     assert_eq!((analysis.frames[0].total_sticking, analysis.frames[0].unsupported.len()), (0.0, 1));
 }
 
