@@ -1,10 +1,10 @@
 //! [`overlap`]: computes the area, the centroid and the depth of the intersection of two polygons.
 //!
-//! Each polygon is cut into convex pieces by ear clipping, or into trapezoids if it has very many corners. Two convex pieces are disjoint if a side of one of them
-//! separates them. Otherwise their depth is the smallest distance by which one piece must move, perpendicular to a
-//! side, until it leaves the other (separating-axis test). The area comes from clipping one piece by the other
-//! (Sutherland and Hodgman 1974). References: Ericson, Real-Time Collision Detection, 2005, §4.4 and §5.2; Held, FIST,
-//! 2001, for ear clipping.
+//! Each polygon is cut into convex pieces by ear clipping, or into trapezoids if it has very many corners. Two convex
+//! pieces are disjoint if a side of one of them separates them. Otherwise their depth is the smallest distance by which
+//! one piece must move, perpendicular to a side, until it leaves the other (separating-axis test). The area comes from
+//! clipping one piece by the other (Sutherland and Hodgman 1974). References: Ericson, Real-Time Collision Detection,
+//! 2005, §4.4 and §5.2; Held, FIST, 2001, for ear clipping.
 //!
 //! Invariant: polygons that only touch do not overlap. An overlap of up to `gap` metres in depth counts as touching.
 //! Depth is a distance along a side's normal, so it does not depend on where the scene lies.

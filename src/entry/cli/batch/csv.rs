@@ -7,8 +7,8 @@ use crate::products::result::Origin;
 use crate::products::wording::verdict::word;
 use crate::text;
 
-/// The first row: the names of the columns. Forces are in newtons, and all numbers have at
-/// most twelve significant digits. `friction_used` is the largest used fraction of the
+/// The first row: the names of the columns. Forces are in newtons, and all numbers have at most twelve significant
+/// digits. `friction_used` is the largest used fraction of the
 /// available friction at any contact, and `limit_used` the largest used fraction of the limits of any robot.
 pub(super) const HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,largest_force_n,total_force_n,total_sticking_n,friction_used,limit_used,problem\n";
 

@@ -26,6 +26,9 @@ use crate::mechanics::statics::assembly::Assembly;
 /// The largest number of bodies of a component whose tolerance is computed.
 const MAX_BODIES: usize = 600;
 
+/// A tolerance up to this, in units of the model, is rounding and counts as 0.
+const ROUNDING: f64 = 1e-12;
+
 /// A block that only robots hold has no limit if its tolerance is above this, in units of the model.
 const UNBOUNDED: f64 = 0.99 * MOST;
 
@@ -224,7 +227,7 @@ fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
     if component.contacts.is_empty() && robust.proved > UNBOUNDED {
         return None;
     }
-    found.proved = robust.proved * model.metres;
+    found.proved = if robust.proved > ROUNDING { robust.proved * model.metres } else { 0.0 };
     found.proofs = vec![proof];
     let mut joint = robust.row.and_then(|row| model.contact_of_row(row));
     if robust.proved >= end {
