@@ -6,8 +6,10 @@
 //! 1. solve the kinematic form ([`Optimum`]); an unbounded dual is the motion;
 //! 2. find the face of optima from the basic columns ([`Face::optimal_face`]);
 //! 3. on the face, find the forces of least Σ force², which are unique;
-//! 4. accept them if they balance every block and cost as much as the optimum; otherwise use the optimum of step 1.
+//! 4. accept them if they balance every block and cost as much as the optimum; otherwise try another margin for step 2.
+//!    If no margin succeeds, use the optimum of step 1.
 
+use super::level::{WIDE_LOAD_RATIO, lightest, refined_optimum, with_least_squares};
 use super::optimum::solve_kinematic_form;
 use super::{
     Balance, Choice, Conditioning, Effort, Face, MAX_ITERATIONS, Optimum, SolverSettings, Status,
@@ -16,12 +18,26 @@ use super::{
 use crate::mechanics::program::{Aim, Column, Program, columns};
 use crate::mechanics::proof::Proof;
 
+/// Margins of [`Optimum::active`] that are tried in turn for the face of optima, dimensionless.
+///
+/// At 1 a column is basic if its amount exceeds its slack. If both are nearly 0, a column may be included by mistake;
+/// the cost then differs, and a smaller margin helps. Near the limit of stability a column may be missing by mistake;
+/// then no forces balance, and a larger margin helps.
+const ACTIVE_MARGINS: [f64; 5] = [1.0, 1e-3, 1e3, 1e-6, 1e6];
+
 /// The largest relative difference of cost between the optimum and a balance on the face of optima.
 ///
 /// On the true face every balance has the same cost, up to the solver's error. A larger difference shows that the face
-/// contains a column that does not belong to it. With very high friction the solver loses digits, and the cost of a
-/// balance is then more accurate than the optimum that the solver returns.
-const COST_TOL: f64 = 1e-6;
+/// contains a column that does not belong to it. If the tolerance were ten times larger, a face with such a column
+/// would be accepted; if it were ten times smaller, it would be within the solver's error.
+const COST_TOL: f64 = 2e-8;
+
+/// The relative difference of cost up to which a balance is accepted if none meets [`COST_TOL`]; the cheapest one is
+/// chosen.
+///
+/// With very high friction the solver loses digits, and the cost of a balance is then more accurate than the optimum
+/// that the solver returns.
+const ROUGH_COST_TOL: f64 = 1e-6;
 
 /// The largest residual that a balance may leave after the least-squares problem, relative to the largest load: half of
 /// what a proof allows.
@@ -88,8 +104,14 @@ pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
     let motion = || Some(solved.motion());
     match solved.status {
         Status::Solved => {
+            let effort = &mut found.effort;
+            // If the loads differ by many powers of ten, use the optimum that is also accurate for light blocks.
+            // Otherwise choose the optimum of least Σ force² (steps 2 to 4), or repair the optimum that the solver
+            // found.
+            if let Some(balance) = balance_by_levels(program, &whole, &solved, settings, effort) {
+                return balance;
+            }
             found.witness = motion();
-            // Choose the optimum of least Σ force² (steps 2 to 4), or repair the optimum that the solver found.
             let effort = &mut found.effort;
             let best = match settings.choice {
                 Choice::Any => None,
@@ -117,6 +139,32 @@ pub fn balance_in(program: &Program, settings: SolverSettings) -> Balance {
         _ => {}
     }
     found
+}
+
+/// Computes the least force for few blocks whose loads differ by many powers of ten. The result is accurate relative to
+/// the load of each block.
+///
+/// `None` if the loads are of similar size, if there are many blocks, if any balance is sufficient ([`Choice::Any`]),
+/// or if the refinement fails.
+fn balance_by_levels(
+    program: &Program,
+    whole: &Face,
+    solved: &Optimum,
+    settings: SolverSettings,
+    effort: &mut Effort,
+) -> Option<Balance> {
+    let light = lightest(&whole.loads);
+    let has_wide_range = light < WIDE_LOAD_RATIO * largest(&whole.loads);
+    if !has_wide_range || program.has_many_blocks() || settings.choice == Choice::Any {
+        return None;
+    }
+    // Refine the optimum level by level, from the largest loads to the smallest. Then choose the forces of least
+    // Σ force² on the face of optima.
+    let (loads, columns) = (&whole.loads, &whole.columns);
+    let optimum = refined_optimum(loads, columns, |c| c.cost, solved, light, effort)?;
+    let face = whole.optimal_face(&optimum, 1.0);
+    let (forces, _) = with_least_squares(face, light, settings, effort).to_forces(program);
+    Some(Balance { forces: Some(forces), witness: Some(optimum.motion()), effort: *effort, ..Balance::default() })
 }
 
 /// Step 1: solves the kinematic form. Returns its optimum, and the settings for the least-squares problem on the face of
@@ -149,8 +197,8 @@ fn solve_first(
     (solved, usual)
 }
 
-/// Steps 2 to 4: among the balances of least cost, finds the one of least Σ force². `None` if the face of optima has no
-/// balance of this cost.
+/// Steps 2 to 4: among the balances of least cost, finds the one of least Σ force². `None` if none of the
+/// [`ACTIVE_MARGINS`] leads to such a balance.
 ///
 /// `settings[0]` is for removing the residual of a balance, and `settings[1]` is for the least-squares problem.
 fn least_squares_balance(
@@ -161,20 +209,43 @@ fn least_squares_balance(
     effort: &mut Effort,
 ) -> Option<Face> {
     let [repair_settings, face_settings] = settings;
-    // Step 2: select the columns of the face of optima.
-    let face = whole.optimal_face(solved, 1.0);
-    // Step 3: solve the least-squares problem on the face.
-    let mut amounts = least_squares_amounts(&face.loads, &face.columns, face_settings, effort)?;
-    // Step 4: check the cost and the residual.
-    if (face.cost(&amounts) - solved.objective).abs() > COST_TOL * solved.objective.abs() {
-        return None;
-    }
     let size = largest(&program.loads);
-    let is_balanced = |amounts: &[f64]| largest(&remainder(&face.loads, &face.columns, amounts)) <= BALANCE_TOL * size;
-    if !is_balanced(&amounts) {
-        // The face is correct, but in long arches the rounding errors add up to more than a proof allows. Remove the
-        // residual.
-        amounts = balance_by_least_change(&face.loads, &face.columns, amounts, repair_settings, effort);
+    let mut best: Option<(f64, Face)> = None;
+    let mut tried = Vec::with_capacity(ACTIVE_MARGINS.len());
+    for margin in ACTIVE_MARGINS {
+        // Step 2: select the columns of the face of optima.
+        let face = whole.optimal_face(solved, margin);
+        // The face of a larger margin contains the face of a smaller margin. If both have equally many columns, they
+        // are the same face.
+        let counts = (face.columns.len(), face.at_limit.len());
+        if tried.contains(&counts) {
+            continue;
+        }
+        tried.push(counts);
+        // Step 3: solve the least-squares problem on the face.
+        let Some(mut amounts) = least_squares_amounts(&face.loads, &face.columns, face_settings, effort) else {
+            continue;
+        };
+        // Step 4: check the cost and the residual.
+        let cost = face.cost(&amounts);
+        let difference = (cost - solved.objective).abs() / solved.objective.abs();
+        let is_balanced =
+            |amounts: &[f64]| largest(&remainder(&face.loads, &face.columns, amounts)) <= BALANCE_TOL * size;
+        if difference <= ROUGH_COST_TOL && !is_balanced(&amounts) {
+            // The face is correct, but in long arches the rounding errors add up to more than a proof allows. Remove
+            // the residual.
+            amounts = balance_by_least_change(&face.loads, &face.columns, amounts, repair_settings, effort);
+        }
+        if difference > ROUGH_COST_TOL || !is_balanced(&amounts) {
+            continue;
+        }
+        // Keep the balance of least cost. Stop at the first balance whose cost is within the tolerance.
+        if best.as_ref().is_none_or(|best| cost < best.0) {
+            best = Some((cost, face.with_amounts(amounts)));
+        }
+        if difference <= COST_TOL {
+            break;
+        }
     }
-    is_balanced(&amounts).then(|| face.with_amounts(amounts))
+    best.map(|(_, face)| face)
 }

@@ -192,6 +192,15 @@ fn the_total_force_is_the_least_under_a_very_small_push() {
     }
 }
 
+/// With friction 1000, the first face of optima has a sum of forces 4·10⁻⁷ above the least; another margin of it has the
+/// least.
+#[test]
+fn the_total_force_is_the_least_with_very_high_friction() {
+    let found = examined(900_496);
+    assert_eq!(found.standing, Standing::Agrees(Verdict::Stable));
+    assert!(found.error.is_some_and(|e| e < 1e-7), "{:?}", found.error);
+}
+
 /// Gravity is exactly normal to a slope without friction. The unit vector of its direction is rounded, but not in the exact
 /// program.
 #[test]
