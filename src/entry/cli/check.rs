@@ -117,8 +117,8 @@ impl Check {
         Ok(endings.chain(wrong).max().unwrap_or(ExitStatus::Done))
     }
 
-    /// Analyses all scenes in parallel, and shows a progress bar if this takes long. Returns a result or an
-    /// error for each scene, in the order of `sources`.
+    /// Analyses all scenes in parallel, and shows a progress bar if this takes long. Returns a result or an error for
+    /// each scene, in the order of `sources`.
     fn answers(
         &self,
         sources: &[(usize, Source)],

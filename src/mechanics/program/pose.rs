@@ -212,8 +212,8 @@ pub struct Correction<'a> {
     pub amounts: &'a [f64],
     /// The change of an amount per unit of its unknown.
     pub size: f64,
-    /// The largest change towards 0 or towards a limit, in units of `size`. It keeps bounds far beyond the changes out of
-    /// the problem: with a limit of 10⁸ times the residual the solver ends without a result.
+    /// The largest change towards 0 or towards a limit, in units of `size`. With bounds of 10⁸ times the residual, which
+    /// no change reaches, the solver would end without a result.
     pub largest: f64,
 }
 

@@ -62,12 +62,15 @@ const MAX_BASIC_SLACK: f64 = 0.5;
 const CROSSOVER: CrossoverTolerance =
     CrossoverTolerance { tolerance_factor: 1e-2, max_slack: 1.2 * MAX_BASIC_SLACK * SUM_TOL_MANY, early_factor: 3.0 };
 
-/// A motion of stage 1 in which a velocity reaches this, where each adhesion resists a velocity of 1, is resisted only by
-/// the rounding of lever arms: no adhesion prevents it. With kernel 1 such an arm is 10⁻¹⁶ instead of 0, and pulls of
-/// 10 MN would balance a load of 10⁻⁹ N. A kernel of 1 − 10⁻⁹ leads to velocities of 10⁹.
+/// If a velocity of the motion of stage 1 reaches this, no adhesion prevents the motion: only lever arms of rounding do.
+///
+/// The motion is scaled so that no adhesion is overcome at a velocity above 1. With kernel 1 a lever arm is 10⁻¹⁶ instead
+/// of 0, the velocity is 10¹⁶, and pulls of 10 MN would balance a load of 10⁻⁹ N. A kernel of 1 − 10⁻⁹ leads to
+/// velocities of only 10⁹.
 const MIN_FREE_SPEED: f64 = 1e13;
 
-/// The largest number of motions that no adhesion prevents for which the loads are left out in turn.
+/// Stage 1 is solved again at most this many times, each time without the loads along one more motion that no adhesion
+/// prevents.
 const MAX_FREE_MOTIONS: usize = 4;
 
 /// Margins of [`Optimum::active`], tried in turn: if a margin of 1 drops a needed column, a larger margin keeps it.
@@ -114,7 +117,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Balanc
             break;
         }
         // Leave out the part of the loads that drives this motion, so that the adhesion elsewhere is still found.
-        whole.loads = without_power(&whole.loads, &first.y);
+        whole.loads = without_work_along(&whole.loads, &first.y);
         free = free.or_else(|| Some(first.motion()));
         (first, priced) = first_stage(&whole, many, settings, &mut effort);
     }
@@ -144,7 +147,7 @@ pub(super) fn by_programs(program: &Program, settings: SolverSettings) -> Balanc
 }
 
 /// Returns the loads without the part that does work along `y`.
-fn without_power(loads: &[f64], y: &[f64]) -> Vec<f64> {
+fn without_work_along(loads: &[f64], y: &[f64]) -> Vec<f64> {
     // Scale the velocities to 1 first, so that their squares do not overflow.
     let fastest = largest(y);
     let power: f64 = loads.iter().zip(y).map(|(load, v)| load * v / fastest).sum();

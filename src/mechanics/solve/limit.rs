@@ -106,8 +106,8 @@ fn extreme_factor(program: &Program, direction: &[f64], factor: Factor, plain_fi
     }
 }
 
-/// Solves the program of an extreme load factor. The factor in the result is that of the original loads, and the amounts
-/// are those of the scaled loads. `None` if the direction is zero.
+/// Finds the largest load factor, or the one nearest to 0. In the result, the factor refers to the original loads, but the
+/// amounts refer to the scaled loads. `None` if the direction is zero.
 fn solve_along<'p>(
     program: &'p Program,
     direction: &[f64],

@@ -8,8 +8,8 @@ use crate::products::wording::verdict::word;
 use crate::text;
 
 /// The first row: the names of the columns. Forces are in newtons, and all numbers have at most twelve significant
-/// digits. `friction_used` is the largest used fraction of the
-/// available friction at any contact, and `limit_used` the largest used fraction of the limits of any robot.
+/// digits. `friction_used` is the largest used fraction of the available friction at any contact, and `limit_used` the
+/// largest used fraction of the limits of any robot.
 pub(super) const HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,largest_force_n,total_force_n,total_sticking_n,friction_used,limit_used,problem\n";
 
 /// Returns the rows of a scene, one for each frame.
@@ -46,7 +46,7 @@ pub(super) fn problem_row(origin: &Origin, problems: &[Problem]) -> String {
     format!("{}{between}{}\n", place(origin), cell(&words))
 }
 
-/// Rounds a number to twelve significant digits, so that no rounding errors of sums follow.
+/// Rounds a number to twelve significant digits. The digits after these are rounding errors of sums.
 fn rounded(number: f64) -> f64 {
     format!("{number:.11e}").parse().unwrap_or(number)
 }

@@ -6,10 +6,10 @@
 //! For each of these parameters, the values at which a frame stands form an [`Interval`]. A frame stands if all its
 //! components stand: its interval is the intersection of theirs.
 //!
-//! [`path`] says how a component changes with a parameter. [`search`] finds an end from a prediction and confirms it by verdicts, and [`nearest`] finds the first value at which
-//! a frame stands. If the forces depend linearly on a parameter, one linear program gives the prediction
-//! ([`parameter`]); this includes the limits of robots. For friction and kernel, Newton's method gives it
-//! ([`mod@threshold`]).
+//! [`path`] says how a component changes with a parameter. [`search`] finds an end from a prediction and confirms it by
+//! verdicts, and [`nearest`] finds the first value at which a frame stands. If the forces depend linearly on a parameter,
+//! one linear program gives the prediction ([`parameter`]); this includes the limits of robots. For friction and kernel,
+//! Newton's method gives it ([`mod@threshold`]).
 //! An end is accepted only if it is proved that the changed frame stands just inside it and falls just beyond it. The
 //! mechanism of an end is the collapse mechanism just beyond it. [`Margins`] are derived from the intervals.
 

@@ -1,10 +1,11 @@
 //! [`Path`]: a parameter and how a component changes with it. The searches of [`search`](super::search) and
 //! [`nearest`](super::nearest) follow it.
 //!
-//! The loads, or the limits of forces, may be linear in the parameter. The power of the loads along a fixed mechanism is
-//! then linear, too: one mechanism shows that a component falls at every value on one side of the value at which this
-//! power vanishes, a cutting plane (Kelley 1960). At the tilt θ, the power is A cos θ + B sin θ + C, so that a mechanism
-//! excludes an arc of tilts. Friction and the kernel change the mechanisms themselves.
+//! Many parameters change the loads or the limits of forces linearly. Then the power of the loads along a fixed mechanism
+//! is a linear function of the parameter, too, and is 0 at one value. On one side of this value the power is positive, so
+//! the component falls at every value there. This is a cutting plane (Kelley 1960). At the tilt θ, the power is
+//! A cos θ + B sin θ + C, so a mechanism excludes an arc of tilts. Friction and the kernel change the mechanisms
+//! themselves.
 
 use super::interval::{END_TOL, ROUNDING_TOL};
 use super::kind::MarginKind;

@@ -39,8 +39,8 @@ const TOLERANCE_OF_GAP: f64 = 1e-2;
 /// The optimum is reached if new forces improve it by less than this share.
 pub(super) const GAP: f64 = 3e-5;
 
-/// [`GAP`] for more than [`FEW_BODIES`] bodies. With it a wall of 105 bricks takes half the time; a wall of 51 bricks, and
-/// stacks and arches of any size, gain nothing.
+/// [`GAP`] for more than [`FEW_BODIES`] bodies. With it, a wall of 105 bricks takes less than half the time and an arch of
+/// 99 stones three quarters of it. A stack of 100 blocks takes the same time.
 const GAP_OF_MANY: f64 = 1e-3;
 
 /// The largest number of bodies for which the optimum is found to five digits.
@@ -154,7 +154,7 @@ pub(super) fn largest_tolerance(model: &Model, aim: Option<f64>) -> Robust {
         }
         let new = cheapest_reactions(model, tolerance, &rows, weights, &loose, accuracy);
         let least: f64 = new.iter().map(|(reaction, cost)| model.moments[reaction.body] * cost).sum();
-        // No means of any forces have a larger d than this one over the least sum.
+        // No other forces reach a larger d than this one divided by the least sum. Stop if that is below the aim.
         if aim.is_some_and(|aim| master.largest < 0.99 * aim * least) {
             return found;
         }

@@ -253,9 +253,9 @@ pub(super) struct Branch {
 }
 
 impl Branch {
-    /// Combines the derivatives at all states into one slope: unique, one-sided or at a kink. `read` returns
-    /// the derivative for one state. Two derivatives are equal if they differ by at most `ZERO_TOL · largest`, where
-    /// `largest` is the largest absolute derivative of the same kind.
+    /// Combines the derivatives at all states into one slope: unique, one-sided or at a kink. `read` returns the
+    /// derivative for one state. Two derivatives are equal if they differ by at most `ZERO_TOL · largest`, where `largest`
+    /// is the largest absolute derivative of the same kind.
     pub fn slope(&self, largest: f64, read: impl Fn(&Rates) -> f64) -> Slope {
         let Some(first) = self.rates.first() else {
             return Slope::AtKink;

@@ -129,8 +129,8 @@ pub(super) fn aside(scene: &Scene, contact: &Contact, block: BlockId, clear: f64
     tries.into_iter().find(goes_on).unwrap_or(interface.middle())
 }
 
-/// Returns the part of a ring of points that lies in a rectangle. Parts that
-/// are apart may be joined by lines along the edges of the rectangle.
+/// Returns the part of a ring of points that lies in a rectangle. Parts that are apart may be joined by lines along the
+/// edges of the rectangle.
 pub(super) fn clipped(ring: &[PagePoint], rect: PageRect) -> Vec<PagePoint> {
     let (right, floor) = (rect.at.x + rect.width, rect.at.y + rect.height);
     // Each side as (a, b, c): a point is inside if a·x + b·y + c ≥ 0.

@@ -93,8 +93,8 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
     Ok(walk.draft)
 }
 
-/// Returns the largest number of comparisons of one element and the elements around it with the selectors of all rules.
-/// Each part of a selector that stands for any ancestor is compared with all of them, for each choice before it.
+/// Returns the largest number of comparisons that the style rules need for one element. A selector with k spaces, such as
+/// `g g path`, may try every ancestor at each space: up to depthᵏ comparisons.
 fn comparisons(sheet: &StyleSheet<'_>, document: &Document<'_>) -> usize {
     let depth = document.descendants().map(|node| node.ancestors().take(MAX_DEPTH).count()).max().unwrap_or(0);
     let of_rule = |rule: &Rule<'_>| {
