@@ -51,7 +51,7 @@ pub(super) use wedging::only_by_wedging;
 use super::{Failure, Options, UndecidedReason, Verdict};
 use crate::mechanics::program::{Program, Scale, UnknownCounts, adhesion_columns, columns};
 use crate::mechanics::proof::{Forces, Motion, Proof, ProofThreshold, fastest};
-use crate::mechanics::solve::{Amounts, Balance, Effort, SolverSettings, determinate};
+use crate::mechanics::solve::{Amounts, Balance, Choice, Effort, SolverSettings, determinate};
 use crate::mechanics::statics::assembly::Assembly;
 use forces::ProvedForces;
 pub(super) use strategy::LimitDistance;
@@ -97,8 +97,6 @@ pub(super) struct Outcome {
     pub effort: Effort,
     /// For each effect, the number of unknowns in the component's program, including the unknowns for adhesion.
     pub count: UnknownCounts,
-    /// Whether a program of least force ended without a result.
-    least_force_failed: bool,
     /// The answer of the program of least adhesion, if it was solved before the failures are computed.
     least_adhesion: Option<Balance>,
     /// Whether only some bodies fall, and the adhesion that these lack is known.
@@ -124,7 +122,6 @@ impl Outcome {
             method: Method::LeastForce,
             effort: Effort::default(),
             count: UnknownCounts::default(),
-            least_force_failed: false,
             least_adhesion: None,
             only_some_fall: false,
         }
@@ -149,12 +146,10 @@ struct Component<'a> {
     assembly: &'a Assembly,
     /// The units of length and force of the component's programs.
     scale: Scale,
-    /// The solver's settings, in the order in which they are tried.
-    settings: Vec<SolverSettings>,
+    /// The solver's settings with plain and with full conditioning, in the order in which they are tried.
+    settings: [SolverSettings; 2],
     /// The thresholds that a proof must meet.
     threshold: ProofThreshold,
-    /// Whether forces of least sum and failures are computed after the verdict.
-    complete_result: bool,
     /// What is known about the component's distance from the limit of stability.
     limit_distance: LimitDistance,
 }
@@ -188,9 +183,13 @@ impl<'a> Component<'a> {
             scale: Scale::from_assembly(assembly),
             settings: options.solver_settings(),
             threshold: options.accuracy.demand(),
-            complete_result: !options.verdict_only,
             limit_distance: LimitDistance::Unknown,
         }
+    }
+
+    /// Whether forces of least sum and failures are computed after the verdict.
+    fn is_complete(&self) -> bool {
+        self.settings[0].choice == Choice::Unique
     }
 
     fn accepts(&self, proof: &Proof) -> bool {
@@ -252,7 +251,7 @@ impl<'a> Component<'a> {
         // The contact forces of a component that falls balance it only together with the missing adhesion.
         let amounts = outcome.amounts.clone();
         outcome.forces = match &outcome.adhesion {
-            _ if !self.complete_result => Forces::zero(self.assembly),
+            _ if !self.is_complete() => Forces::zero(self.assembly),
             Some(adhesion) => self.prove_with_adhesion(amounts, adhesion).0,
             None => self.prove_forces(amounts).forces,
         };

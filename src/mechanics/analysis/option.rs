@@ -129,15 +129,16 @@ impl Options {
         self.deadline.is_some_and(|end| Instant::now() >= end)
     }
 
-    /// Returns the solver settings. They are tried in this order until a proof is strong enough.
-    pub(super) fn solver_settings(self) -> Vec<SolverSettings> {
+    /// Returns the solver settings with plain and with full conditioning. They are tried in this order until a proof is
+    /// strong enough.
+    pub(super) fn solver_settings(self) -> [SolverSettings; 2] {
         let full = match self.accuracy {
             Accuracy::Standard => SolverSettings::from(Conditioning::Full),
             // A strict proof needs a smaller tolerance: only a more accurate solution reduces the solver's error in a
             // motion.
             Accuracy::Proved => SolverSettings { tolerance: TOLERANCE * 1e-2, ..Conditioning::Full.into() },
         };
-        let mut list = vec![SolverSettings::from(Conditioning::Plain), full];
+        let mut list = [SolverSettings::from(Conditioning::Plain), full];
         for settings in &mut list {
             if self.verdict_only {
                 settings.choice = Choice::Any;

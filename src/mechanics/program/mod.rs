@@ -10,12 +10,10 @@
 //! | `column` | the coefficients of each force in the equilibrium equations |
 //! | `scale` | metres and newtons to numbers without units, and back |
 //! | `pose` | the optimisation problems for the solvers |
-//! | `simpler` | the program with nearly parallel joints made parallel, or without slight loads |
 
 mod column;
 mod pose;
 mod scale;
-mod simpler;
 #[cfg(test)]
 mod tests;
 

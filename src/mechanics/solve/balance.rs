@@ -13,7 +13,7 @@ use super::level::{WIDE_LOAD_RATIO, lightest, refined_optimum, with_least_square
 use super::optimum::solve_kinematic_form;
 use super::{
     Balance, Choice, Conditioning, Effort, Face, MAX_ITERATIONS, Optimum, SolverSettings, Status,
-    balance_by_least_change, largest, least_squares_amounts, refine_balance, remainder,
+    balance_by_least_change, largest, least_cost, least_squares_amounts, refine_balance, remainder,
 };
 use crate::mechanics::program::{Aim, Column, Program, columns};
 use crate::mechanics::proof::Proof;
@@ -176,20 +176,18 @@ fn solve_first(
     effort: &mut Effort,
 ) -> (Optimum, SolverSettings) {
     let cost = |column: &Column| column.cost;
-    let mut solve = |attempts: &[SolverSettings]| {
-        solve_kinematic_form(&whole.loads, &whole.columns, &Aim::Least(&cost), attempts.iter().copied(), effort)
-    };
     let usual = SolverSettings { iterations: MAX_ITERATIONS, ..settings };
     if !program.has_many_blocks() {
-        return (solve(&usual.with_retry().collect::<Vec<_>>()), usual);
+        return (least_cost(&whole.loads, &whole.columns, usual, effort, cost), usual);
     }
+    let mut solve =
+        |settings| solve_kinematic_form(&whole.loads, &whole.columns, &Aim::Least(&cost), [settings], effort);
     let short = |most: usize| SolverSettings { iterations: most.min(MAX_ITERATIONS_MANY), ..settings };
-    let solved =
-        solve(&[if settings.conditioning == Conditioning::Plain { short(settings.iterations) } else { usual }]);
+    let solved = solve(if settings.conditioning == Conditioning::Plain { short(settings.iterations) } else { usual });
     // If many columns are doubtful (see `doubtful_share`), solve again to a finer tolerance.
     if settings.choice == Choice::Unique && doubtful_share(&solved) > MAX_DOUBTFUL_SHARE {
         let tolerance = FINE_TOLERANCE_FACTOR * settings.tolerance;
-        let finer = solve(&[SolverSettings { tolerance, ..short(MAX_ITERATIONS_MANY) }]);
+        let finer = solve(SolverSettings { tolerance, ..short(MAX_ITERATIONS_MANY) });
         if finer.status == Status::Solved {
             return (finer, SolverSettings { conditioning: Conditioning::Full, ..usual });
         }

@@ -18,7 +18,7 @@ use super::optimum::{solve_kinematic_form, solve_static_form};
 use super::scaled::{ReducedColumns, columns_in};
 use super::{
     Balance, Conditioning, CrossoverTolerance, Effort, Face, Optimum, SolverSettings, Status, TOLERANCE, determinate,
-    largest, least_cost, least_squares_amounts, refine_balance,
+    largest, least_squares_amounts, refine_balance,
 };
 use crate::mechanics::program::{Aim, Column, Program, adhesion_columns};
 
@@ -159,9 +159,8 @@ fn without_work_along(loads: &[f64], y: &[f64]) -> Vec<f64> {
 /// forces had a small cost in this program.
 fn first_stage(whole: &Face, many: bool, settings: SolverSettings, effort: &mut Effort) -> (Optimum, bool) {
     let priced = |price: f64, effort: &mut Effort| {
-        least_cost(&whole.loads, &whole.columns, settings, effort, |c| {
-            if c.force.is_adhesion() { 1.0 } else { price * c.cost }
-        })
+        let cost = |c: &Column| if c.force.is_adhesion() { 1.0 } else { price * c.cost };
+        solve_kinematic_form(&whole.loads, &whole.columns, &Aim::Least(&cost), settings.with_retry(), effort)
     };
     let mut last = if many { first_stage_of_many(whole, settings, effort) } else { priced(0.0, effort) };
     let mut dear = false;

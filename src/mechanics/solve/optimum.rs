@@ -12,7 +12,7 @@
 
 use super::amounts::Effort;
 use super::answer::{Answer, Status};
-use super::settings::SolverSettings;
+use super::settings::{Conditioning, SolverSettings};
 use super::solver::solve_with;
 use crate::mechanics::program::{Aim, Column, Factor, QuadraticProgram, force_primal, kinematic_form};
 
@@ -62,8 +62,11 @@ impl Optimum {
     }
 }
 
-/// Finds the forces of least cost that balance the loads, by solving the kinematic form. If plain conditioning ends
-/// without a result, solves it again with full conditioning.
+/// Finds the forces of least cost that balance the loads, by solving the kinematic form. If the solver ends without a
+/// result, solves the static form with full conditioning.
+///
+/// Near the limit of stability the velocities are very large, and the kinematic form may end without a result. The
+/// forces may be of ordinary size.
 ///
 /// `cost` returns the cost of one unit of a column.
 pub fn least_cost(
@@ -73,7 +76,12 @@ pub fn least_cost(
     effort: &mut Effort,
     cost: impl Fn(&Column) -> f64,
 ) -> Optimum {
-    solve_kinematic_form(loads, columns, &Aim::Least(&cost), settings.into().with_retry(), effort)
+    let settings = settings.into();
+    let solved = solve_kinematic_form(loads, columns, &Aim::Least(&cost), [settings], effort);
+    if solved.status != Status::Unsolved {
+        return solved;
+    }
+    solve_static_form(loads, columns, SolverSettings { conditioning: Conditioning::Full, ..settings }, effort, cost)
 }
 
 /// Solves the kinematic form of a program with one of the settings after the other, until the solver ends with a

@@ -304,8 +304,8 @@ fn no_pull_acts_on_a_lever_arm_of_rounding() {
     let analysis = Analysis::new(Scene::from_json(file).expect("a sound scene"));
     assert!((analysis.frames[0].total_sticking - 8.0).abs() < 1e-6, "{}", analysis.frames[0].total_sticking);
     // A block that nothing can hold: the result says so, and lists no force.
-    let last = include_str!("routes.ndjson").lines().last().expect("a scene");
-    let known: serde_json::Value = serde_json::from_str(last).expect("JSON");
+    let scene = include_str!("routes.ndjson").lines().find(|scene| scene.contains("2094")).expect("a scene");
+    let known: serde_json::Value = serde_json::from_str(scene).expect("JSON");
     let analysis = Analysis::new(Scene::from_json(&known["scene"].to_string()).expect("a sound scene"));
     assert_eq!((analysis.frames[0].total_sticking, analysis.frames[0].unsupported.len()), (0.0, 1));
 }

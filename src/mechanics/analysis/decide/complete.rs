@@ -1,18 +1,17 @@
 //! Route 4: adds the remaining results after the verdict. These are the forces of least sum if the structure stands, or
 //! its failures and its mechanism if it falls.
 
-use super::forces::ProvedForces;
 use super::rebalance::{MAX_ROUNDS, Rebalanced};
 use super::{Component, Method, Outcome};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::program::Program;
-use crate::mechanics::solve::{Amounts, Choice, balance_in, is_late, least_adhesion_in, rebalance_absolute};
+use crate::mechanics::solve::{Amounts, balance_in, is_late, least_adhesion_in};
 
 impl Component<'_> {
     /// Adds forces of least sum (stable) or failures (unstable) to an outcome. Returns the outcome unchanged if only
     /// the verdict is requested.
     pub fn complete(&self, program: &Program, outcome: Outcome) -> Outcome {
-        if !self.complete_result {
+        if !self.is_complete() {
             return outcome;
         }
         match outcome.verdict {
@@ -25,64 +24,21 @@ impl Component<'_> {
         }
     }
 
-    /// Replaces the forces of an outcome by balancing forces of least sum, if a solution is accurate enough to prove
-    /// that they are least.
+    /// Replaces the forces of a large component that was decided by least residual by balancing forces of least sum, if
+    /// these are proved to be the least. All other components were decided by forces of least sum, or the program of
+    /// least force ended without a result.
     fn with_least_force(&self, program: &Program, mut outcome: Outcome) -> Outcome {
-        if self.settings.iter().any(|s| s.choice == Choice::Any) {
+        if !program.has_many_blocks() || outcome.method != Method::LeastResidual || is_late() {
             return outcome;
         }
-        // The program of least force is not solved again if it ended without a result before.
-        if outcome.least_force_failed {
-            return self.with_forces_of_simpler_programs(program, outcome);
-        }
-        // The first solver settings were tried before, so they are skipped. Exception: if a large component was decided
-        // by least residual, they were not tried to the end.
-        let skipped = usize::from(!program.has_many_blocks() || outcome.method != Method::LeastResidual);
-        for settings in self.settings.iter().skip(skipped) {
-            if is_late() {
-                break;
-            }
-            let solved = balance_in(program, *settings);
-            outcome.effort = outcome.effort.plus(solved.effort);
-            if skipped == 0 && solved.forces.is_none() {
-                break;
-            }
-            if let Some(amounts) = solved.forces
-                && let Some(Rebalanced::Forces(proved)) =
-                    self.balance_every_body(program, &amounts, &mut outcome.effort)
-            {
-                let (force_bound, least_force) = self.bound_force_sum(solved.witness.as_deref(), &proved.forces);
-                if least_force {
-                    outcome.stand(proved);
-                    return Outcome { force_bound, least_force, ..outcome };
-                }
-            }
-        }
-        if is_late() {
-            return outcome;
-        }
-        self.with_forces_of_simpler_programs(program, outcome)
-    }
-
-    /// Replaces the forces of an outcome by those of a simpler program, if these have a smaller sum: the program with
-    /// nearly parallel joints made exactly parallel, or without slight loads. They are changed as little as possible, so
-    /// that they balance in the real program.
-    ///
-    /// Rounded coordinates turn a stone between parallel faces into a slender wedge, for which the program of least
-    /// force ends without a result. So may a load of 10⁻⁷ of the weights on a wall that robots hold.
-    fn with_forces_of_simpler_programs(&self, program: &Program, mut outcome: Outcome) -> Outcome {
-        for simpler in program.simpler() {
-            let solved = balance_in(&simpler, self.settings[0]);
-            outcome.effort = outcome.effort.plus(solved.effort);
-            let near = solved.forces.and_then(|amounts| rebalance_absolute(program, &amounts, &mut outcome.effort));
-            let proved = near.map(|amounts| self.prove_forces(amounts));
-            let better =
-                |proved: &ProvedForces| self.accepts(&proved.proof) && proved.amounts.total() < outcome.amounts.total();
-            if let Some(proved) = proved.filter(better) {
-                (outcome.force_bound, outcome.least_force) =
-                    self.bound_force_sum(solved.witness.as_deref(), &proved.forces);
-                outcome.stand(proved);
-            }
+        let solved = balance_in(program, self.settings[0]);
+        outcome.effort = outcome.effort.plus(solved.effort);
+        if let Some(amounts) = solved.forces
+            && let Some(Rebalanced::Forces(proved)) = self.balance_every_body(program, &amounts, &mut outcome.effort)
+            && let (force_bound, true) = self.bound_force_sum(solved.witness.as_deref(), &proved.forces)
+        {
+            outcome.stand(proved);
+            (outcome.force_bound, outcome.least_force) = (force_bound, true);
         }
         outcome
     }
@@ -154,7 +110,7 @@ impl Component<'_> {
         // Each round balances lighter bodies.
         for _ in 0..MAX_ROUNDS {
             let held = self.with_adhesion(&adhesion);
-            let component = Component { assembly: &held, settings: self.settings.clone(), ..*self };
+            let component = Component { assembly: &held, ..*self };
             let proved = component.prove_forces(amounts.clone());
             if component.accepts(&proved.proof) {
                 return Outcome { adhesion: Some(adhesion), amounts, effort, ..outcome };

@@ -121,7 +121,7 @@ impl Component<'_> {
     /// adhesion.
     pub(super) fn prove_with_adhesion(&self, amounts: Amounts, adhesion: &Amounts) -> (Forces, bool) {
         let held = self.with_adhesion(adhesion);
-        let component = Component { assembly: &held, settings: self.settings.clone(), ..*self };
+        let component = Component { assembly: &held, ..*self };
         let proved = component.prove_forces(amounts);
         let balanced = component.accepts(&proved.proof);
         (proved.forces, balanced)

@@ -28,7 +28,7 @@ impl Component<'_> {
     pub fn decide_by_programs(&self, program: &Program) -> Outcome {
         let outcome = Outcome::undecided(self.assembly, program);
         let mut progress = Progress { outcome, weak_motion: None, last: None };
-        let strategies = Strategy::in_order(program, &self.settings, self.limit_distance, self.complete_result);
+        let strategies = Strategy::in_order(program, self.settings, self.limit_distance);
         for strategy in strategies {
             // After the deadline, stop and report the last attempt: even setting up the next program takes time.
             if progress.last.is_some() && is_late() {
@@ -39,8 +39,6 @@ impl Component<'_> {
             let outcome = &mut progress.outcome;
             outcome.method = strategy.method();
             outcome.effort = outcome.effort.plus(attempt.effort);
-            outcome.least_force_failed |=
-                strategy.is_full_least_force() && attempt.forces.is_none() && attempt.motion.is_none();
             // The closed form is used only if its forces need adhesion.
             if strategy != Strategy::Determinate && self.decide_by_forces(program, &attempt, &mut progress.outcome) {
                 return progress.outcome;

@@ -121,9 +121,8 @@ impl Component<'_> {
         let component = Component {
             assembly: &part.assembly,
             scale: Scale::from_assembly(&part.assembly),
-            settings: self.settings.clone(),
+            settings: self.settings,
             threshold: self.threshold,
-            complete_result: self.complete_result,
             limit_distance: LimitDistance::Unknown,
         };
         // Loads near the smallest floating-point numbers cannot be scaled, so leave this set undecided.

@@ -80,67 +80,46 @@ impl Strategy {
     /// 2. Least force. It decides nearly every component, and figures show its forces.
     /// 3. Any balance, then least residual. They have an optimum on both sides of the limit, where least force may end
     ///    without a result.
-    /// 4. Least force with full conditioning: equilibration and iterative refinement.
-    /// 5. Least adhesion. Its optimum is the sum of the missing forces. It distinguishes best between a sum of 0 and a
-    ///    sum of almost 0.
+    /// 4. Least force with full conditioning, for few blocks.
+    /// 5. Least adhesion, also with both conditionings. Its optimum is the sum of the missing forces. It distinguishes
+    ///    best between a sum of 0 and a sum of almost 0.
     ///
     /// Three cases differ:
     ///
-    /// - At the limit (`LimitDistance::AtLimit`) step 3 comes before step 2.
+    /// - At the limit (`LimitDistance::AtLimit`) step 3 comes first.
     /// - Large programs begin with a short attempt with least force. If failures are requested, least adhesion comes
     ///   before least residual: a large component that falls needs least adhesion in any case, and least residual takes
     ///   nearly as long.
     /// - If only the verdict is requested, large programs begin with any balance. For falling walls of 410 and 915
     ///   bricks, any balance takes 9 to 20 iterations and least force takes 9 to 60. The short attempt with least force
     ///   comes next, because any balance gives no strong proof for a stack of 10 000 blocks.
-    pub fn in_order(
-        program: &Program,
-        settings: &[SolverSettings],
-        limit_distance: LimitDistance,
-        complete_result: bool,
-    ) -> Vec<Strategy> {
-        let mut strategies: Vec<Strategy> = settings.iter().copied().map(Strategy::Force).collect();
-        let is_large = program.has_many_blocks();
-        let only_verdict = settings.iter().all(|s| s.choice == Choice::Any);
-        let is_plain = |s: &&SolverSettings| s.conditioning == Conditioning::Plain;
-        let quick_settings = settings.iter().find(is_plain).copied();
-        let residual = [Strategy::AnyBalance, Strategy::Residual];
+    ///
+    /// `settings` have plain and full conditioning.
+    pub fn in_order(program: &Program, settings: [SolverSettings; 2], limit_distance: LimitDistance) -> Vec<Strategy> {
+        use Strategy::{Adhesion, AnyBalance, Determinate, FirstLook, Force, Residual};
+        let [plain, full] = settings;
+        let only_verdict = plain.choice == Choice::Any;
+        let unique = SolverSettings { choice: Choice::Unique, ..plain };
         match limit_distance {
-            // Large components. Order: short attempt with least force, any balance, least adhesion if failures are
-            // requested, least residual, full attempts with least force.
-            LimitDistance::Unknown if is_large && !only_verdict => {
-                strategies.splice(0..0, residual);
-                if complete_result {
-                    strategies.splice(1..1, quick_settings.map(Strategy::Adhesion));
-                }
-                strategies.splice(0..0, quick_settings.map(Strategy::FirstLook));
-            }
-            // Large components, if only the verdict is requested. Order: any balance, short attempt with least force,
-            // least residual, full attempts with least force.
-            LimitDistance::Unknown if is_large => {
-                strategies.splice(0..0, residual);
-                let with_unique_forces = |settings| SolverSettings { choice: Choice::Unique, ..settings };
-                strategies.splice(1..1, quick_settings.map(with_unique_forces).map(Strategy::FirstLook));
-            }
-            // Small components. Order: least force, any balance, least residual, least force with full conditioning.
-            LimitDistance::Unknown => {
-                let second = 1.min(strategies.len());
-                strategies.splice(second..second, residual);
-            }
-            // At the limit of stability, the program of least force may have no optimum. Any balance and least residual
-            // come first.
             LimitDistance::AtLimit => {
-                strategies.splice(0..0, residual);
+                vec![Determinate, AnyBalance, Residual, Force(plain), Force(full), Adhesion(plain), Adhesion(full)]
+            }
+            _ if !program.has_many_blocks() => {
+                vec![Determinate, Force(plain), AnyBalance, Residual, Force(full), Adhesion(plain), Adhesion(full)]
+            }
+            _ if only_verdict => vec![
+                Determinate,
+                AnyBalance,
+                FirstLook(unique),
+                Residual,
+                Force(plain),
+                Adhesion(plain),
+                Adhesion(full),
+            ],
+            _ => {
+                vec![Determinate, FirstLook(plain), AnyBalance, Adhesion(plain), Residual, Force(plain), Adhesion(full)]
             }
         }
-        // The closed form always comes first. Attempts with least adhesion that are not yet in the list come last.
-        strategies.insert(0, Strategy::Determinate);
-        for settings in settings.iter().copied().map(Strategy::Adhesion) {
-            if !strategies.contains(&settings) {
-                strategies.push(settings);
-            }
-        }
-        strategies
     }
 
     /// Solves the program of this strategy, or evaluates its closed form. The result is in the program's units and not
@@ -154,11 +133,6 @@ impl Strategy {
             Strategy::Residual => least_residual(program),
             Strategy::Adhesion(settings) => least_adhesion_in(program, *settings),
         }
-    }
-
-    /// True if the strategy solves the program of least force to the end.
-    pub fn is_full_least_force(&self) -> bool {
-        matches!(self, Strategy::Force(_))
     }
 
     /// True if an attempt whose forces could not be proved shows that no forces balance the loads. Only the programs of
@@ -182,9 +156,8 @@ impl Strategy {
     pub fn method(&self) -> Method {
         match self {
             Strategy::Determinate => Method::ClosedForm,
-            Strategy::FirstLook(_) => Method::LeastForce,
-            Strategy::Force(settings) if settings.conditioning == Conditioning::Plain => Method::LeastForce,
-            Strategy::Force(_) => Method::LeastForceRefined,
+            Strategy::Force(settings) if settings.conditioning == Conditioning::Full => Method::LeastForceRefined,
+            Strategy::FirstLook(_) | Strategy::Force(_) => Method::LeastForce,
             Strategy::AnyBalance | Strategy::Residual => Method::LeastResidual,
             Strategy::Adhesion(_) => Method::LeastSticking,
         }
