@@ -23,7 +23,7 @@ use crate::mechanics::program::UnknownCounts;
 use crate::mechanics::scene::{RobotId, Scene};
 use crate::mechanics::solve::{DeadlineGuard, Effort};
 use crate::mechanics::statics::assembly::Assembly;
-use crate::mechanics::statics::effect::wedging::{self, Wedging};
+use crate::mechanics::statics::effect::report::{self, Wedging};
 use crate::mechanics::statics::effect::{self, EffectReport, FrameContext};
 use crate::mechanics::statics::interface::Interfaces;
 
@@ -110,8 +110,8 @@ pub(super) fn analyse_frame(context: &FrameContext, options: Options, known: &mu
         analysis.solve.stages.margins = seconds() - after;
     }
     analysis.sensitivity = find_sensitivity(context, &analysis, &solved, options, &known.intervals);
-    analysis.effects.push(effect::margin::report(decided_count));
-    analysis.effects.push(wedging::report(wedging));
+    analysis.effects.push(report::margins(decided_count));
+    analysis.effects.push(report::wedging(wedging));
     if options.placement {
         let before = seconds();
         if analysis.verdict == Verdict::Stable {
@@ -119,7 +119,7 @@ pub(super) fn analyse_frame(context: &FrameContext, options: Options, known: &mu
             analysis.placement = placement::find_placement(context.scene, components);
         }
         analysis.solve.stages.placement = seconds() - before;
-        analysis.effects.push(effect::placement::report(analysis.verdict == Verdict::Stable));
+        analysis.effects.push(report::placement(analysis.verdict == Verdict::Stable));
     }
     analysis.solve.seconds = seconds();
     analysis

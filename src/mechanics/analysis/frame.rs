@@ -9,8 +9,8 @@ use crate::mechanics::program::UnknownCounts;
 use crate::mechanics::proof::Proof;
 use crate::mechanics::scene::{BlockId, RobotId};
 use crate::mechanics::statics::assembly::Assembly;
-use crate::mechanics::statics::effect::sticking::{self, AdhesionSearch};
-use crate::mechanics::statics::effect::{EffectName, FrameContext, mechanism};
+use crate::mechanics::statics::effect::report::{self, AdhesionSearch};
+use crate::mechanics::statics::effect::{EffectName, FrameContext};
 use crate::text::first_of;
 
 /// Returns the weaker of two proofs. If both are of the same kind, the result has the worse value of each error. If
@@ -57,8 +57,8 @@ pub(super) fn complete_frame(
         _ if analysis.failures.is_empty() => AdhesionSearch::NotNeeded,
         _ => AdhesionSearch::Found,
     };
-    analysis.effects.push(sticking::report(blocks, search, counts.get(EffectName::Sticking)));
-    analysis.effects.push(mechanism::report(unstable));
+    analysis.effects.push(report::sticking(blocks, search, counts.get(EffectName::Sticking)));
+    analysis.effects.push(report::mechanism(unstable));
     add_notices(analysis, context, verdict_only);
 }
 

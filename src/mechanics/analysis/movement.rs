@@ -111,7 +111,7 @@ pub(super) fn add_movements(scene: &Scene, interfaces: &Interfaces, frames: &mut
     let _until = DeadlineGuard::new(options.deadline);
     for (frame, found) in scene.frames.iter().zip(frames) {
         let stands = found.verdict == Verdict::Stable;
-        found.effects.push(effect::movement::report(scene.movements.len(), stands));
+        found.effects.push(effect::report::movements(scene.movements.len(), stands));
         if !stands {
             continue;
         }

@@ -59,7 +59,7 @@ pub(super) fn add_influence(scene: &Scene, interfaces: &Interfaces, frames: &mut
         let stands = found.verdict == Verdict::Stable;
         found.vehicle = if stands { influence(scene, frame, interfaces, vehicle) } else { None };
         let positions = found.vehicle.as_ref().map(|influence| influence.positions.len());
-        found.effects.push(effect::vehicle::report(stands, positions));
+        found.effects.push(effect::report::vehicle(stands, positions));
     }
 }
 

@@ -6,7 +6,7 @@ use crate::mechanics::analysis::{Options, Wedged};
 use crate::mechanics::program::Program;
 use crate::mechanics::scene::Scene;
 use crate::mechanics::statics::assembly::Assembly;
-use crate::mechanics::statics::effect::wedging::Wedging;
+use crate::mechanics::statics::effect::report::Wedging;
 use crate::mechanics::wedge::{SelfStress, SelfStressCheck, check_self_stress};
 use crate::text::first_of;
 

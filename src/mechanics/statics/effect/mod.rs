@@ -1,32 +1,21 @@
 //! Effects: the phenomena that can be simulated in a frame, such as friction or robots, and whether a frame needs them.
 //!
-//! An effect that acts on the assembly is one file with a type that implements `Effect`: `applicability` returns
+//! An effect that acts on the assembly is a type in `action.rs` that implements `Effect`: `applicability` returns
 //! whether the frame needs it, with a reason in words, and `contribute` adds its loads, contacts, friction or grips to
 //! the [`Assembly`]. A skipped effect contributes nothing, so the linear program has no row or column for it. The
 //! number of unknowns of each effect is counted later, from the columns of the programs that were solved.
 //!
 //! Sticking, mechanism, margins and wedging depend on the verdict or on the user's options. They contribute to no
-//! assembly; the `report` functions of their files are called after the frame is solved.
+//! assembly; their functions in [`report`] are called after the frame is solved.
 //!
-//! To add an effect, write its file, and add it to [`EffectName`] and to `EFFECTS` here.
+//! To add an effect, write its type or its report, and add it to [`EffectName`] and to `EFFECTS` here.
 
-mod contact;
-mod corner_contact;
-mod friction;
-mod kernel;
-mod load;
-pub mod margin;
-pub mod mechanism;
-pub mod movement;
-pub mod placement;
-mod robot;
-mod robot_torque;
-pub mod sticking;
-pub mod vehicle;
-pub mod wedging;
-mod weight;
+mod action;
+pub mod report;
 
 use std::fmt;
+
+use action::{Contact, CornerContacts, Friction, Kernel, Loads, RobotTorque, Robots, Weight};
 
 use crate::mechanics::scene::{Frame, Scene};
 use crate::mechanics::statics::assembly::Assembly;
@@ -196,16 +185,8 @@ trait Effect {
 
 /// The effects in the order in which they contribute and are reported. Friction and kernel change contacts, so they
 /// come after the effect that adds edge contacts.
-const EFFECTS: [&dyn Effect; 8] = [
-    &weight::Weight,
-    &contact::Contact,
-    &friction::Friction,
-    &kernel::Kernel,
-    &robot::Robots,
-    &robot_torque::RobotTorque,
-    &load::Loads,
-    &corner_contact::CornerContacts,
-];
+const EFFECTS: [&dyn Effect; 8] =
+    [&Weight, &Contact, &Friction, &Kernel, &Robots, &RobotTorque, &Loads, &CornerContacts];
 
 /// Builds the assembly of a frame, as [`assemble`] does, of which it leaves out the reports.
 pub fn assembly_of(scene: &Scene, frame: &Frame, interfaces: &Interfaces) -> Assembly {
