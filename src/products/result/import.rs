@@ -1,8 +1,7 @@
 //! [`import_json`]: writes the log of an import as JSON.
 
-use serde::Serialize;
-
-use super::{Layout, written};
+use super::Layout;
+use super::json::{Json, object, written};
 use crate::sources::import::Imported;
 
 /// Writes the log of an import as one JSON object that ends with a line feed. It states how the drawing was
@@ -31,55 +30,31 @@ pub(crate) fn imported_json(imported: &Imported) -> String {
 
 fn log(imported: &Imported, text: Option<String>) -> String {
     let scene = &imported.scene;
-    let done = ImportReport {
+    let warnings = imported.remarks.iter().map(|remark| {
+        object! {
+            element: &remark.element,
+            message: &remark.message,
+            help: Json::from(&remark.help).unless_empty(),
+        }
+    });
+    let snapped = imported.snapped.iter().map(|snapped| {
+        object! {
+            body: &snapped.body,
+            element: &snapped.element,
+            corners: snapped.corners,
+            distance: snapped.distance,
+            to: Json::list(&snapped.to),
+        }
+    });
+    let log = object! {
         drystone: env!("CARGO_PKG_VERSION"),
         blocks: scene.blocks.len(),
         ground: scene.ground.len(),
         robots: scene.robots.len(),
         scene: text,
-        notes: &imported.notes,
-        warnings: (imported.remarks.iter())
-            .map(|r| Warning { element: &r.element, message: &r.message, help: &r.help })
-            .collect(),
-        snapped: (imported.snapped.iter())
-            .map(|s| SnappedBody {
-                body: &s.body,
-                element: &s.element,
-                corners: s.corners,
-                distance: s.distance,
-                to: &s.to,
-            })
-            .collect(),
+        notes: Json::list(&imported.notes),
+        warnings: Json::list(warnings),
+        snapped: Json::list(snapped),
     };
-    written(&done, Layout::Lines, 1)
-}
-
-#[derive(Serialize)]
-struct ImportReport<'a> {
-    drystone: &'static str,
-    blocks: usize,
-    ground: usize,
-    robots: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    scene: Option<String>,
-    notes: &'a [String],
-    warnings: Vec<Warning<'a>>,
-    snapped: Vec<SnappedBody<'a>>,
-}
-
-#[derive(Serialize)]
-struct Warning<'a> {
-    element: &'a str,
-    message: &'a str,
-    #[serde(skip_serializing_if = "str::is_empty")]
-    help: &'a str,
-}
-
-#[derive(Serialize)]
-struct SnappedBody<'a> {
-    body: &'a str,
-    element: &'a str,
-    corners: usize,
-    distance: f64,
-    to: &'a [String],
+    written(&log, Layout::Lines, 1)
 }

@@ -5,8 +5,9 @@ use std::sync::LazyLock;
 
 use serde_json::Value;
 
+use super::json::{Json, compact, object};
 use super::key::{KEYS, Key, Type};
-use super::{Layout, Result, Timing, to_json, word};
+use super::{Result, Timing};
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::text;
 
@@ -191,101 +192,53 @@ pub enum PictureOutcome {
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn line_of(origin: &Origin, analysis: &Analysis, picture: &PictureOutcome, fields: &Fields) -> String {
-    let mut out = line_start(origin);
-    let verdict = word(analysis.verdict());
-    let all = fields.are_all();
+    let mut line = line_start(origin);
     if fields.are_few() {
-        put_few(&mut out, &analysis.scene.title, analysis.verdict(), fields);
-    } else if all {
-        put(&mut out, "verdict", &Value::from(verdict));
-        let whole = to_json(analysis, Timing::LeftOut, Layout::OneLine);
-        out.push(',');
-        out.push_str(whole.trim_start_matches('{').trim_end_matches("}\n"));
+        line.extend(few(&analysis.scene.title, analysis.verdict(), fields));
     } else {
         let timing = if fields.ask(&["frames", "solve"]) { Timing::Included } else { Timing::LeftOut };
-        let mut whole = Result::new(analysis, timing);
-        if fields.ask(&["frames", "blocks"]) {
-            whole.frames.has_blocks = true;
-        }
-        let whole = serde_json::to_value(whole).unwrap_or_default();
-        let spelled = fields.spelled();
-        for name in NAMES.iter() {
-            let chosen = below(&spelled, name.word);
-            match name.word {
-                _ if chosen.is_empty() => {}
-                "verdict" => put(&mut out, "verdict", &Value::from(verdict)),
-                word => {
-                    if let Some(value) = whole.get(word) {
-                        key(&mut out, word);
-                        pick(&mut out, value, &name.parts, &chosen);
-                    }
-                }
-            }
+        let result = Result { file: None, analysis, blocks: fields.ask(&["frames", "blocks"]), timing };
+        let mut whole = result.head();
+        whole.push(("frames", Json::list(result.frames())));
+        let verdict = ("verdict", analysis.verdict().word().into());
+        if fields.are_all() {
+            line.push(verdict);
+            line.extend(whole);
+        } else {
+            let behind = whole.iter().position(|(key, _)| *key == "scene").map_or(0, |place| place + 1);
+            whole.insert(behind, verdict);
+            line.extend(pick(Json::Object(whole), &fields.spelled()).into_entries());
         }
     }
     match picture {
         PictureOutcome::NotAsked => {}
-        PictureOutcome::Drawn(name) => put(&mut out, "picture", &Value::from(&**name)),
-        PictureOutcome::Refused(why) => {
-            put(&mut out, "picture", &Value::Null);
-            put(&mut out, "picture_refused", &Value::from(&**why));
-        }
+        PictureOutcome::Drawn(name) => line.push(("picture", name.into())),
+        PictureOutcome::Refused(why) => line.extend([("picture", Json::Null), ("picture_refused", why.into())]),
     }
-    line_end(out)
+    line_end(line)
 }
 
 /// Writes the title of a scene and its verdict as one line that ends with a line feed. If one of these fields is not
 /// selected, it is left out.
 pub fn verdict_line(origin: &Origin, title: &str, verdict: Verdict, fields: &Fields) -> String {
-    let mut out = line_start(origin);
-    put_few(&mut out, title, verdict, fields);
-    line_end(out)
+    let mut line = line_start(origin);
+    line.extend(few(title, verdict, fields));
+    line_end(line)
 }
 
-/// Writes the title and the verdict, if these fields are selected.
-fn put_few(out: &mut String, title: &str, verdict: Verdict, fields: &Fields) {
-    for name in ["scene", "verdict"] {
-        if fields.chosen.iter().any(|path| path == &[name]) {
-            let value = match name {
-                "scene" => title,
-                _ => word(verdict),
-            };
-            put(out, name, &Value::from(value));
-        }
-    }
+/// Returns the title and the verdict, if these fields are selected.
+fn few<'a>(title: &'a str, verdict: Verdict, fields: &Fields) -> Vec<(&'a str, Json<'a>)> {
+    let few = Json::object([("scene", title.into()), ("verdict", verdict.word().into())]);
+    pick(few, &fields.chosen).into_entries()
 }
 
 /// Begins the JSON object of a line with the origin of the scene.
-fn line_start(origin: &Origin) -> String {
-    let mut out = String::from("{");
-    if let Some(file) = &origin.file {
-        put(&mut out, "file", &Value::from(&**file));
-    }
-    if let Some(line) = origin.line {
-        put(&mut out, "line", &Value::from(line));
-    }
-    out
+fn line_start(origin: &Origin) -> Vec<(&str, Json<'_>)> {
+    object! { file: origin.file.as_ref(), line: origin.line }.into_entries()
 }
 
-fn line_end(mut out: String) -> String {
-    out.push_str("}\n");
-    text::json(&out).into_owned()
-}
-
-/// Writes a key with its colon. A comma separates it from the field before.
-fn key(out: &mut String, name: &str) {
-    if !out.ends_with('{') {
-        out.push(',');
-    }
-    out.push('"');
-    out.push_str(name);
-    out.push_str("\":");
-}
-
-/// Writes a key and its value.
-fn put(out: &mut String, name: &str, value: &Value) {
-    key(out, name);
-    out.push_str(&value.to_string());
+fn line_end(line: Vec<(&str, Json<'_>)>) -> String {
+    compact(&Json::Object(line)) + "\n"
 }
 
 /// Returns the paths that begin with `name`, each without this first part. A path that consists only of `name` becomes
@@ -295,34 +248,17 @@ fn below(chosen: &[Vec<&'static str>], name: &str) -> Vec<Vec<&'static str>> {
     under.map(|path| path[1..].to_vec()).collect()
 }
 
-/// Writes the selected parts of a value as JSON. `parts` are all fields below the value, in the order in which they are
-/// written. `chosen` has the selected paths, relative to the value.
-fn pick(out: &mut String, value: &Value, parts: &[Name], chosen: &[Vec<&'static str>]) {
-    let whole = chosen.iter().any(Vec::is_empty);
+/// Returns the selected parts of a value. `chosen` has the selected paths, relative to the value; a path below a list
+/// selects a part of each of its entries.
+fn pick<'a>(value: Json<'a>, chosen: &[Vec<&'static str>]) -> Json<'a> {
     match value {
-        Value::Array(list) if !parts.is_empty() => {
-            out.push('[');
-            for (number, entry) in list.iter().enumerate() {
-                if number > 0 {
-                    out.push(',');
-                }
-                pick(out, entry, parts, chosen);
-            }
-            out.push(']');
-        }
-        Value::Object(map) if !parts.is_empty() => {
-            let mut inner = String::from("{");
-            for name in parts {
-                let deeper = if whole { vec![Vec::new()] } else { below(chosen, name.word) };
-                if let (Some(value), false) = (map.get(name.word), deeper.is_empty()) {
-                    key(&mut inner, name.word);
-                    pick(&mut inner, value, &name.parts, &deeper);
-                }
-            }
-            out.push_str(&inner);
-            out.push('}');
-        }
-        value => out.push_str(&value.to_string()),
+        value if chosen.iter().any(Vec::is_empty) => value,
+        Json::List(list) => Json::list(list.into_iter().map(|entry| pick(entry, chosen))),
+        Json::Object(entries) => Json::object(entries.into_iter().filter_map(|(key, value)| {
+            let deeper = below(chosen, key);
+            (!deeper.is_empty()).then(|| (key, pick(value, &deeper)))
+        })),
+        value => value,
     }
 }
 

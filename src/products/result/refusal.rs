@@ -1,32 +1,12 @@
 //! Writes the problems of a file that is not a valid scene as a JSON object, in place of a result.
 
-use serde::Serialize;
-
 #[cfg(feature = "wasm")]
-use super::compact;
-use super::{Layout, Origin, written};
+use super::json::compact;
+use super::json::{Json, object, written};
+use super::{Layout, Origin};
 use crate::mechanics::scene::Problem;
 #[cfg(feature = "wasm")]
 use crate::sources::import::Remark;
-
-#[derive(Serialize)]
-struct Refusal<'a> {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    file: Option<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<usize>,
-    problems: Vec<Entry<'a>>,
-}
-
-#[derive(Serialize)]
-struct Entry<'a> {
-    code: &'static str,
-    path: &'a str,
-    line: Option<usize>,
-    column: Option<usize>,
-    message: &'a str,
-    hint: &'a str,
-}
 
 /// Writes the problems of a file as one JSON object: `{ "file", "problems": [{ code, path, line, column, message,
 /// hint }] }`.
@@ -44,7 +24,7 @@ struct Entry<'a> {
 /// assert!(json.starts_with(r#"{"file":"empty.json","problems":[{"code":"missing_key","path":"drystone","line":1,"#));
 /// ```
 pub fn refusal(file: &str, problems: &[Problem], layout: Layout) -> String {
-    written(&Refusal { file: Some(file), line: None, problems: entries(problems, 0) }, layout, 1)
+    written(&object! { file: file, problems: entries(problems, 0) }, layout, 1)
 }
 
 /// Writes problems as one JSON list: the value of `problems` in [`refusal`], on one line without a line feed.
@@ -57,20 +37,9 @@ pub(crate) fn problem_list(problems: &[Problem]) -> String {
 /// feed.
 #[cfg(feature = "wasm")]
 pub(crate) fn remark_list(remarks: &[Remark]) -> String {
-    let entries = remarks.iter().map(|remark| DrawingEntry {
-        element: &remark.element,
-        message: &remark.message,
-        hint: &remark.help,
-    });
-    compact(&entries.collect::<Vec<_>>())
-}
-
-#[cfg(feature = "wasm")]
-#[derive(Serialize)]
-struct DrawingEntry<'a> {
-    element: &'a str,
-    message: &'a str,
-    hint: &'a str,
+    compact(&Json::list(remarks.iter().map(|remark| {
+        object! { element: &remark.element, message: &remark.message, hint: &remark.help }
+    })))
 }
 
 /// Writes the problems of one scene of a batch as one line that ends with a line feed.
@@ -79,25 +48,25 @@ struct DrawingEntry<'a> {
 /// line of the input, all its problems are on this line.
 pub fn problem_line(origin: &Origin, problems: &[Problem]) -> String {
     let before = origin.line.map_or(0, |line| line - 1);
-    written(
-        &Refusal { file: origin.file.as_deref(), line: origin.line, problems: entries(problems, before) },
-        Layout::OneLine,
-        1,
-    )
+    let refusal = object! {
+        file: origin.file.as_deref(),
+        line: origin.line,
+        problems: entries(problems, before),
+    };
+    written(&refusal, Layout::OneLine, 1)
 }
 
 /// Makes the JSON entries for the problems of a text. `before` is the number of lines in the file before this text.
-fn entries(problems: &[Problem], before: usize) -> Vec<Entry<'_>> {
+fn entries(problems: &[Problem], before: usize) -> Json<'_> {
     let place = |number: usize| (number > 0).then_some(number);
-    problems
-        .iter()
-        .map(|problem| Entry {
+    Json::list(problems.iter().map(|problem| {
+        object! {
             code: problem.code.word(),
             path: &problem.path,
-            line: place(problem.line).map(|line| before + line),
-            column: place(problem.column),
+            line: Json::or_null(place(problem.line).map(|line| before + line)),
+            column: Json::or_null(place(problem.column)),
             message: &problem.message,
             hint: &problem.help,
-        })
-        .collect()
+        }
+    }))
 }

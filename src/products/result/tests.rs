@@ -1,12 +1,12 @@
 //! Tests that the JSON output follows its documented format exactly.
 
 use super::*;
-use crate::geometry::{Polygon, Tolerance as Closeness};
+use crate::geometry::{Point, Polygon, Tolerance as Closeness, Vector};
 use crate::mechanics::analysis::{
-    Contact, EffectName, EffectReport, Failure, Motion as Moved, Proof, Resultant as Sum, RobotForce, SolveReport,
-    UndecidedReason, Verdict,
+    Contact, EffectName, EffectReport, Failure, FrameAnalysis, Motion as Moved, Proof, Resultant as Sum, RobotForce,
+    SolveReport, UndecidedReason, Verdict,
 };
-use crate::mechanics::scene::{Block, Body, BodyId, Frame as Step, Healed, Limits, Robot as Arm, RobotId};
+use crate::mechanics::scene::{Block, BlockId, Body, BodyId, Frame as Step, Healed, Limits, Robot as Arm, RobotId};
 use crate::mechanics::statics::interface::ContactKind;
 
 fn scene() -> Scene {
