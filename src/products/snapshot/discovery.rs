@@ -37,8 +37,6 @@ pub struct Discovered {
     pub orphans: Vec<(PathBuf, String)>,
     /// Scenes that are not valid, or that could not be read because of an error in the program, each with the problems.
     pub faults: Vec<(PathBuf, SceneError)>,
-    /// Notes on settings files.
-    pub notes: Vec<String>,
 }
 
 /// Finds all scenes in the given folders and scene files. Also finds all orphaned references: references without a
@@ -94,7 +92,7 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
     }
     let orphans = search.orphans(&expected);
     let orphans = orphans.into_iter().filter(|(path, _)| selects(&shown(path)));
-    Ok(Discovered { orphans: orphans.collect(), jobs, faults, notes: search.notes })
+    Ok(Discovered { orphans: orphans.collect(), jobs, faults })
 }
 
 /// Returns a path as text, with `/` between folders on every operating system and without `./` at the beginning.
@@ -124,7 +122,6 @@ struct SnapshotSearch {
     /// for a file that cannot be read or is not valid.
     known: BTreeMap<Option<PathBuf>, Option<Arc<Settings>>>,
     errors: Vec<String>,
-    notes: Vec<String>,
 }
 
 impl SnapshotSearch {
@@ -199,9 +196,6 @@ impl SnapshotSearch {
         let read = file.as_deref().map_or_else(|| Ok(Settings::default()), settings_in);
         let read = read.map_err(|errors| self.errors.extend(errors)).ok();
         let settings = read.map(Arc::new);
-        let notes = settings.iter().flat_map(|settings| &settings.notes);
-        let named = |note: &String| format!("{}: {note}", file.as_deref().map(shown).unwrap_or_default());
-        self.notes.extend(notes.map(named));
         self.known.insert(file, settings.clone());
         settings
     }
@@ -309,7 +303,7 @@ pub(crate) fn looks_like_scene(bytes: &[u8]) -> bool {
 fn has_reference_mark(path: &Path) -> bool {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(32).read_to_end(&mut head));
-    let marks = ["{\"drystone_facts\":", "drystone facts ", HASH_WORDS];
+    let marks = ["{\"drystone_facts\":", HASH_WORDS];
     read.is_ok() && marks.iter().any(|mark| head.starts_with(mark.as_bytes()))
 }
 

@@ -10,9 +10,6 @@ use png::{BitDepth, ColorType, DecodingError, Transformations};
 use super::layer::UnreadableReference;
 use crate::pictures::output::png::{MAX_PIXELS, MAX_SIDE};
 
-/// References of earlier versions had palettes of rounded colours. Under this PNG keyword, they state how much each
-/// colour was rounded: two hexadecimal digits for each colour.
-const ROUNDING_KEYWORD: &str = "drystone-rounding";
 /// The first bytes of a PNG.
 const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 /// The colour of pixels that differ.
@@ -32,8 +29,6 @@ pub struct Picture {
     /// Red, green, blue and alpha of each pixel, row by row from the upper left corner, not premultiplied. If alpha
     /// is 0, the other channels are 0 too, because they are invisible.
     rgba: Vec<[u8; 4]>,
-    /// The largest rounding of a colour that the file states, 0 … 255.
-    rounding: u8,
 }
 
 impl Picture {
@@ -47,7 +42,7 @@ impl Picture {
         for pixel in rgba.iter_mut().filter(|p| p[3] == 0) {
             *pixel = [0; 4];
         }
-        Picture { width, height, rgba, rounding: 0 }
+        Picture { width, height, rgba }
     }
 
     /// Decodes a PNG.
@@ -88,10 +83,6 @@ impl Picture {
                 animation.num_frames
             )));
         }
-        let note = info.uncompressed_latin1_text.iter().find(|t| t.keyword == ROUNDING_KEYWORD);
-        let digits = note.map(|t| t.text.as_bytes().chunks(2)).into_iter().flatten();
-        let roundings = digits.filter_map(|two| u8::from_str_radix(std::str::from_utf8(two).ok()?, 16).ok());
-        let rounding = roundings.max().unwrap_or(0);
         let mut data = vec![0; reader.output_buffer_size().ok_or_else(large)?];
         let frame = reader.next_frame(&mut data).map_err(wrong)?;
         reader.finish().map_err(wrong)?;
@@ -103,7 +94,7 @@ impl Picture {
             [r, g, b, a, ..] => [r, g, b, a],
             [] => [0; 4],
         });
-        Ok(Picture { rounding, ..Picture::new(width, height, pixels.collect()) })
+        Ok(Picture::new(width, height, pixels.collect()))
     }
 
     /// Encodes the picture as a PNG without loss.
@@ -172,7 +163,6 @@ impl Difference {
     /// ```
     pub fn new(expected: &Picture, found: &Picture, tolerance: u8) -> Difference {
         let (width, height) = (expected.width.min(found.width), expected.height.min(found.height));
-        let tolerance = tolerance.saturating_add(expected.rounding.max(found.rounding));
         let mut largest = 0;
         let mut pixels = Vec::new();
         for y in 0..height {

@@ -42,8 +42,6 @@ pub struct Settings {
     /// More scenes or folders of scenes, relative to the settings file. Their references are stored next to the
     /// settings file.
     pub scenes: Vec<PathBuf>,
-    /// Notes on keys that have no effect.
-    pub notes: Vec<String>,
 }
 
 impl Default for Settings {
@@ -59,7 +57,6 @@ impl Default for Settings {
             most_kilobytes: None,
             ignore: Vec::new(),
             scenes: Vec::new(),
-            notes: Vec::new(),
         }
     }
 }
@@ -76,10 +73,6 @@ read_keys! {
         digits as |r, node, at| r.whole_within(node, at, [2, 12]).map(|n| n as usize),
         hashes_pixels "pixels" as |r, node, at| r.choice(node, at, &[("png", false), ("hash", true)]),
         channel_tolerance as |r, node, at| r.whole_within(node, at, [0, 254]).map(|n| n as u8),
-        notes "perceptual_threshold" as |r, node, at| {
-            let note = "perceptual_threshold has no effect: pixels are compared by channel_tolerance";
-            r.number_within(node, at, [0.0, 1.0], "a number, usually 0.1,").map(|_| vec![note.into()])
-        },
         most_kilobytes as |r, node, at| r.whole_within(node, at, [1, 1_000_000]).map(|n| Some(u64::from(n))),
         ignore,
         scenes as |r, node, at| {

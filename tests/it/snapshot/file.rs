@@ -158,22 +158,3 @@ fn pictures_of_different_sizes_are_reported_with_both_sizes() {
     let grown = Difference::new(&white(9, 9), &white(9, 10), 1);
     assert_eq!((grown.is_none(), grown.words().as_str()), (false, "9 × 9 pixels expected, 9 × 10 found"));
 }
-
-/// References of earlier versions had palettes of rounded colours, and a note that says by how much.
-#[test]
-fn rounded_colours_of_old_references_are_allowed_for() {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
-    encoder.set_color(png::ColorType::Indexed);
-    encoder.set_palette(vec![10, 20, 30, 200, 200, 200]);
-    encoder.add_text_chunk("drystone-rounding".into(), "0500".into()).expect("a note");
-    let mut writer = encoder.write_header().expect("a header");
-    writer.write_image_data(&[0, 1]).expect("pixels");
-    writer.finish().expect("an end");
-    let old = Picture::decode(&bytes).expect("read");
-    let found = |red: u8| Picture::new(2, 1, vec![[red, 20, 30, 255], [200, 200, 200, 255]]);
-    assert!(Difference::new(&old, &found(16), 1).is_none());
-    assert_eq!(Difference::new(&old, &found(17), 1).largest, 7);
-    let new = Picture::decode(&found(10).encode().expect("packed")).expect("read");
-    assert_eq!(new, found(10), "the present format rounds nothing");
-}

@@ -319,44 +319,18 @@ fn an_equal_change_of_many_blocks_is_one_line() {
     assert_eq!(blocks.count(), 1, "{changes:?}");
 }
 
-/// The facts of `held` in version 2.
-const OLD_FACTS: &str = r#"drystone facts 2
-scene "": gravity 0.00000 -9.81000 m/s², kernel 0.1
-block "a": weight 10.0000 N, centroid 1.00000 0.50000 m, μ 0.7
-limits "arm": horizontal 5.0000 N, vertical 6.0000 N, torque 1.0000 N·m
-load "a": force 1.0000 -2.0000 N, at 1.00000 1.00000 m
-
-frame 1 "": stable
-"#;
-
-/// References of version 1 and 2 can still be read. Version 1 has neither loads, nor limits, nor friction coefficients
-/// of blocks, so these are not compared.
+/// A reference of another version is not compared; the message names both versions and the remedy.
 #[test]
-fn references_of_earlier_versions_differ_only_in_what_they_state() {
-    let words = |old: &str, edit: &dyn Fn(&mut serde_json::Value)| -> Vec<String> {
-        let old = Facts::read(old).expect("an old facts file");
-        // The test has only the facts of the scene.
-        let changes = old.changes(&held(edit)).into_iter();
-        changes
-            .filter(|words| {
-                !words.contains("interface") && !words.contains("robot arm on") && !words.contains("all together")
-            })
-            .collect()
-    };
-    let nothing: &dyn Fn(&mut serde_json::Value) = &|_| {};
-    let load: &dyn Fn(&mut serde_json::Value) = &|file| file["loads"][0]["force"] = serde_json::json!([1, -4]);
-    assert!(words(OLD_FACTS, nothing).is_empty(), "{:#?}", words(OLD_FACTS, nothing));
-    assert_eq!(words(OLD_FACTS, load)[0], "load on a: force 1, −2 → 1, −4 N");
-    let without_new_facts = OLD_FACTS.lines().filter(|line| !line.starts_with("load ") && !line.starts_with("limits "));
-    let first: Vec<String> =
-        without_new_facts.map(|line| line.replace("facts 2", "facts 1").replace(", μ 0.7", "")).collect();
-    assert!(words(&first.join("\n"), load).is_empty(), "{:#?}", words(&first.join("\n"), load));
-    let heavier: &dyn Fn(&mut serde_json::Value) = &|file| file["blocks"][0]["weight"] = 12.into();
-    assert_eq!(words(&first.join("\n"), heavier)[0], "block a: weight 10 → 12 N");
+fn facts_of_another_version_are_refused_with_a_remedy() {
+    let other = held(&|_| {}).text().replace("{\"drystone_facts\":3", "{\"drystone_facts\":2");
     for (text, words) in [
-        ("drystone facts 9\n", "line 1 is not a fact"),
-        ("drystone facts 2\nblock \"a: 3 N\n", "line 2 is not a fact"),
-        ("{}", "it is not a file of facts"),
+        (
+            &*other,
+            "it has facts of version 2, and this program reads version 3; write it again with `drystone snapshot",
+        ),
+        ("{\"drystone_facts\":9}", "it has facts of version 9, and this program reads version 3"),
+        ("{}", "it is not a file of facts: missing field `drystone_facts`"),
+        ("{\"drystone_facts\":3}", "it is not a file of facts: missing field `decimals`"),
     ] {
         let refused = Facts::read(text).expect_err(text).to_string();
         assert!(refused.starts_with(words), "{refused}");

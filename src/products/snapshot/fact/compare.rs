@@ -193,10 +193,6 @@ impl<'f> Comparison<'f> {
 
     /// Reports a fact that is new or gone.
     fn presence(&mut self, key: Key<'f>, fact: &Fact, is_new: bool) {
-        // References of version 1 contain no other facts about the scene.
-        if self.expected.drystone_facts == 1 && !self.is_result && is_new && key.0 != "block" {
-            return;
-        }
         if key.0 == "falls" {
             let how = BLOCK_FALLS[usize::from(!is_new)].0;
             return self.add_object((Rank::Fall, 0.0), called(key), how.into());
@@ -213,10 +209,6 @@ impl<'f> Comparison<'f> {
         let mut words = Vec::new();
         let mut most: f64 = 0.0;
         for (key, name, unit) in QUANTITIES {
-            // References of version 1 do not contain the friction coefficients of blocks.
-            if self.expected.drystone_facts == 1 && key == "mu" && new.kind == "block" {
-                continue;
-            }
             match (old.values.get(key), new.values.get(key)) {
                 (Some(was), Some(is)) => {
                     if let Some(by) = self.difference(unit, was, is) {

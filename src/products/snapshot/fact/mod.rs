@@ -17,17 +17,16 @@
 //! no proof, so their forces are not reported.
 
 mod compare;
-mod old;
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::layer::UnreadableReference;
 use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::{Analysis, Contact, Failure, FrameAnalysis, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId, RobotId, Scene};
+use crate::products::snapshot::layer::UnreadableReference;
 use crate::text;
 
 /// The significant digits of a force that is as large as the largest weight or load.
@@ -137,28 +136,33 @@ impl Facts {
         text::json(&text.replace("{\"fact\":\"", "\n{\"fact\":\"")).into_owned() + "\n"
     }
 
-    /// Reads facts from the text of a reference file of any version.
+    /// Reads facts from the text of a reference file.
     ///
     /// # Errors
-    /// [`UnreadableReference`] if the text is not a list of facts.
+    /// [`UnreadableReference`] if the text is not a list of facts, or of another version.
     pub fn read(text: &str) -> Result<Facts, UnreadableReference> {
         let text = text.trim_start_matches('\u{feff}');
         UnreadableReference::check(text.as_bytes(), "facts")?;
-        if text.starts_with(old::FIRST_WORDS) {
-            return old::read(text);
+        /// The version of facts, whose other keys may differ from those of this version.
+        #[derive(Deserialize)]
+        struct Versioned {
+            drystone_facts: u8,
         }
         let wrong = |why: String| UnreadableReference(format!("it is not a file of facts: {why}"));
+        let Versioned { drystone_facts: version } = serde_json::from_str(text).map_err(|e| wrong(e.to_string()))?;
+        if version != VERSION {
+            let why = format!("it has facts of version {version}, and this program reads version {VERSION}");
+            return Err(UnreadableReference(format!("{why}; write it again with `drystone snapshot --accept`")));
+        }
         let facts: Facts = serde_json::from_str(text).map_err(|error| wrong(error.to_string()))?;
-        if facts.drystone_facts != VERSION || facts.sections.iter().any(Vec::is_empty) {
-            return Err(wrong(format!("its version is not {VERSION}, or a section is empty")));
+        if facts.sections.iter().any(Vec::is_empty) {
+            return Err(wrong("a section is empty".to_owned()));
         }
         Ok(facts)
     }
 
     /// Describes how the facts `found` differ from these facts. Changes of the scene come first. Then come changes of
     /// the results, the most important first. The list is empty if there is no difference.
-    ///
-    /// If these facts were read from a file of version 1, facts that version 1 does not contain are not compared.
     pub fn changes(&self, found: &Facts) -> Vec<String> {
         compare::changes(self, found)
     }
