@@ -21,6 +21,7 @@ mod line;
 mod margin;
 mod question;
 mod refusal;
+mod schema;
 mod sensitivity;
 
 use std::io;
@@ -35,13 +36,13 @@ pub use import::import_json;
 #[cfg(feature = "wasm")]
 pub(crate) use import::imported_json;
 use json::{Json, compact, object, write};
-pub use key::schema;
 pub use line::{Fields, Origin, PictureOutcome, UnknownField, line_of, verdict_line};
 pub use margin::margins_json;
 pub use question::capacity_json;
 pub use refusal::{problem_line, refusal};
 #[cfg(feature = "wasm")]
 pub(crate) use refusal::{problem_list, remark_list};
+pub use schema::schema;
 
 use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::{Scene, ToleranceSource};
