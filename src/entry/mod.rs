@@ -3,6 +3,9 @@
 // Only Python and JavaScript send JSON.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 #[cfg_attr(not(any(feature = "python", feature = "wasm")), allow(dead_code))]
+mod value;
+#[cfg(any(feature = "cli", feature = "wasm"))]
+#[cfg_attr(not(any(feature = "python", feature = "wasm")), allow(dead_code))]
 mod request;
 
 #[cfg(feature = "cli")]

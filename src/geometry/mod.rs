@@ -6,12 +6,9 @@
 
 mod lattice;
 mod box_index;
-mod bounds;
 mod circle;
 mod crossing;
 mod edge;
-mod hull;
-mod trapezoids;
 mod overlap;
 mod polygon;
 mod compensated_sum;
@@ -19,18 +16,17 @@ pub(crate) mod snap;
 mod tolerance;
 mod zonotope;
 
-pub use bounds::Bounds;
+pub use box_index::Bounds;
 pub(crate) use box_index::{Aabb, BoxIndex};
 pub use circle::Circle;
 pub use compensated_sum::CompensatedSum;
 pub use edge::Edge;
-pub(crate) use hull::convex_hull;
 pub(crate) use lattice::boundary;
 pub use lattice::{Cell, CellShape, Lattice, LatticeKind};
 pub(crate) use overlap::in_half_plane;
 pub use overlap::{ConvexPieces, Overlap, overlap};
-pub(crate) use polygon::sin_cos_degrees;
 pub use polygon::{Polygon, PolygonError};
+pub(crate) use polygon::{convex_hull, sin_cos_degrees};
 pub use tolerance::Tolerance;
 pub use zonotope::{Vec3, quick_gauge_bound, zonotope_gauge, zonotope_gauge_bound};
 

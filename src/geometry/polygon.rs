@@ -303,5 +303,30 @@ fn ring_contains(ring: &[Point], p: Point) -> bool {
     inside
 }
 
+/// Returns the corners of the convex hull of some points, anticlockwise. Points on the sides of the hull are left out.
+/// Monotone chain algorithm, Andrew 1979.
+pub(crate) fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    points.dedup();
+    let mut ring: Vec<Point> = Vec::with_capacity(points.len() + 1);
+    for pass in 0..2 {
+        let begin = ring.len();
+        for p in &points {
+            while ring.len() >= begin + 2 && {
+                let [a, b] = [ring[ring.len() - 2], ring[ring.len() - 1]];
+                cross(b - a, *p - b) <= 0.0
+            } {
+                ring.pop();
+            }
+            ring.push(*p);
+        }
+        ring.pop();
+        if pass == 0 {
+            points.reverse();
+        }
+    }
+    ring
+}
+
 #[cfg(test)]
 mod tests;

@@ -128,7 +128,6 @@ fn shared_parts_of_figures_do_not_import_a_kind_of_figure() {
         "fall",
         "displacement",
         "description",
-        "unit",
         "parallel_arrows",
         "fill",
     ] {

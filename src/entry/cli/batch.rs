@@ -1,7 +1,6 @@
 //! `drystone batch`: analyses any number of scenes. The output is one line of JSON for each scene, or a CSV table with
 //! a row for each frame.
 
-mod csv;
 mod input;
 mod output;
 mod pace;
@@ -308,7 +307,7 @@ impl SceneWork {
         };
         let line = match self.form {
             Form::Json => line_of(origin, &analysis, &picture, &self.fields),
-            Form::Csv => csv::rows(origin, &analysis),
+            Form::Csv => output::csv_rows(origin, &analysis),
         };
         Ok((line, ExitStatus::from_analysis(&analysis)))
     }
@@ -316,7 +315,7 @@ impl SceneWork {
     fn refused(&self, origin: &Origin, problems: &[Problem]) -> (String, ExitStatus) {
         let line = match self.form {
             Form::Json => problem_line(origin, problems),
-            Form::Csv => csv::problem_row(origin, problems),
+            Form::Csv => output::csv_problem_row(origin, problems),
         };
         (line, ExitStatus::WrongInput)
     }

@@ -3,7 +3,8 @@
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::picture::{Drawn, Format, Picture, or_split};
 use crate::entry::cli::style_args::StyleArgs;
-use crate::entry::request::{Background, FigureArgs, between};
+use crate::entry::request::FigureArgs;
+use crate::entry::value::{Background, between};
 use crate::mechanics::analysis::Analysis;
 use crate::pictures::drawing::Theme;
 use crate::pictures::output::animation;

@@ -10,7 +10,7 @@ use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::page::Page;
 use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
-use crate::entry::request::FrameChoice;
+use crate::entry::value::FrameChoice;
 use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{Note, NoteCode, Scene};
 use crate::pictures::output::attachment::is_picture;

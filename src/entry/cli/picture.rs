@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::entry::cli::error::CliError;
-use crate::entry::request::{Background, between, millimetres};
+use crate::entry::value::{Background, between, millimetres};
 use crate::pictures::drawing::Drawing;
 use crate::pictures::output::animation::Step;
 use crate::pictures::output::attachment::{MAX_BYTES, attached};

@@ -12,7 +12,7 @@ use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::terminal::Terminal;
-use crate::entry::request::ThemeName;
+use crate::entry::value::ThemeName;
 use crate::pictures::output::file::Existing;
 use crate::products::result;
 use crate::text::typed_word;

@@ -1,6 +1,5 @@
 //! `drystone render`: draws figures of scenes.
 
-mod broken;
 mod output;
 mod preview;
 
@@ -22,7 +21,7 @@ use crate::entry::cli::progress::Progress;
 use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::cli::watch;
-use crate::entry::request::FrameChoice;
+use crate::entry::value::FrameChoice;
 use crate::mechanics::analysis::{self, Analysis, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::pictures::output::fonts::Fonts;

@@ -10,7 +10,8 @@ use std::time::Duration;
 
 use crate::clock::Instant;
 use crate::entry::cli::error::CliError;
-use crate::entry::request::{AnalysisArgs, FrameChoice};
+use crate::entry::request::AnalysisArgs;
+use crate::entry::value::FrameChoice;
 use crate::mechanics::scene::{Scene, SceneError, isolate};
 use crate::pictures::output::attachment::{file_in, is_picture};
 use crate::products::snapshot::discovery::looks_like_scene;

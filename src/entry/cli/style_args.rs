@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::entry::cli::error::CliError;
-use crate::entry::request::ThemeName;
+use crate::entry::value::ThemeName;
 use crate::pictures::drawing::Theme;
 use crate::pictures::drawing::style::format::Notation;
 use crate::text::{Word, typed_word};

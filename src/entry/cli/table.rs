@@ -4,17 +4,14 @@ use std::fmt::Write;
 
 use clap::builder::styling::{AnsiColor, Style};
 
-use crate::entry::cli::page::{Page, broken, seen};
+use super::page::{Page, broken, seen};
 use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
 use crate::mechanics::scene::format::Expectation;
 use crate::mechanics::scene::{Limits, Scene};
 use crate::products::result::Timing;
 use crate::products::wording::number::{duration, letter, quantity, tenths};
-use crate::products::wording::thrust::thrust_range;
-use crate::products::wording::verdict::plain;
-use crate::products::wording::{
-    capacity, case, failure, margin, movement, placement, proof, reach, removable, vehicle,
-};
+use crate::products::wording::question::{self, thrust_range};
+use crate::products::wording::{capacity, failure, margin, verdict};
 use crate::text::heading;
 
 /// The words in the tables and in the lines below them, with their meanings.
@@ -273,7 +270,7 @@ fn row(scene: &Scene, number: usize, label: String, frame: &FrameAnalysis) -> Ve
         robots => tenths(robots.iter().map(|r| r.limit_used).fold(0.0, f64::max)),
     };
     let weight = quantity(frame.weight, scene.units.force());
-    vec![label, plain(frame.verdict).into(), weight, margin.unwrap_or_else(|| "-".into()), robots]
+    vec![label, frame.verdict.plain().into(), weight, margin.unwrap_or_else(|| "-".into()), robots]
 }
 
 /// Returns a line with the sum of all forces, the sum of the missing forces, the proof and the time.
@@ -286,7 +283,7 @@ fn sums(scene: &Scene, frame: &FrameAnalysis, timing: Timing) -> String {
     let mut words = format!(
         "forces {}, sticking {sticking}; proof: {}",
         quantity(frame.total_force, scene.units.force()),
-        proof::short(frame.proof)
+        verdict::proof_in_short(frame.proof)
     );
     if timing == Timing::Included {
         let _ = write!(words, ", {}", duration(frame.solve.seconds));
@@ -334,17 +331,21 @@ fn remarks(analysis: &Analysis, number: usize, detail: &Detail) -> Vec<String> {
     if let Some(effect) = wedging.filter(|_| frame.only_by_wedging != Some(false)) {
         remarks.push(format!("wedging: {}", effect.why));
     }
-    remarks.extend(case::lines(frame));
+    remarks.extend(question::case_lines(frame));
     if detail.margins {
         remarks.extend(margin::lines(scene, frame));
     }
-    remarks.extend(frame.placement.as_ref().map(|p| format!("placement: {}", placement::sentence(scene, frame, p))));
-    let moved = frame.movements.iter().map(|m| format!("movement: {}", movement::sentence(scene, frame, m)));
+    remarks.extend(
+        frame.placement.as_ref().map(|p| format!("placement: {}", question::placement_sentence(scene, frame, p))),
+    );
+    let moved = frame.movements.iter().map(|m| format!("movement: {}", question::movement_sentence(scene, frame, m)));
     remarks.extend(moved);
     let rows = frame.removable.iter();
-    remarks.extend(rows.map(|rows| format!("removable: {}", removable::phrases(scene, rows).join("; "))));
-    remarks.extend(frame.reach.iter().flat_map(|found| reach::lines(scene, found)));
-    remarks.extend(frame.vehicle.as_ref().map(|influence| format!("vehicle: {}", vehicle::sentence(scene, influence))));
+    remarks.extend(rows.map(|rows| format!("removable: {}", question::removable_phrases(scene, rows).join("; "))));
+    remarks.extend(frame.reach.iter().flat_map(|found| question::reach_lines(scene, found)));
+    remarks.extend(
+        frame.vehicle.as_ref().map(|influence| format!("vehicle: {}", question::vehicle_sentence(scene, influence))),
+    );
     let carried = frame.capacity.iter();
     remarks.extend(carried.map(|c| format!("capacity: {}", capacity::sentences(scene, frame.verdict, c))));
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));

@@ -6,25 +6,24 @@
 //! of problems that `drystone check --json` prints, and is empty if an option is not valid. After an internal error (an
 //! `Error` without `problems`) the module has to be started again.
 
-mod import;
 mod request;
-mod session;
 
 use std::panic;
 
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-pub use session::Session;
+use request::{PageArgs, ResultArgs};
 
 use crate::entry::request::{Refused, read_json};
+use crate::mechanics::analysis::Analysis;
+use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{Scene, SceneError};
 use crate::pictures::output::attachment::file_in;
 use crate::products::figure::Kind;
-use crate::products::result::{problem_list, quoted, remark_list};
-use crate::sources::import::DrawingProblems;
-use crate::text::Word;
-use request::{PageArgs, ResultArgs};
+use crate::products::result::{imported_json, problem_list, quoted, remark_list};
+use crate::read::Given;
+use crate::sources::import::{DrawingProblems, Format, Options, STONES, import};
 
 /// Why the input was refused. JavaScript receives an `Error` with this message, whose property `problems` is the list
 /// of the problems.
@@ -157,5 +156,103 @@ pub fn scene_in(picture: &[u8]) -> Result<String, Refusal> {
 /// Returns the elements of the drawing that prevent an import, or a message about an option that is not valid.
 #[wasm_bindgen(js_name = importDrawing)]
 pub fn import_drawing(text: &str, format: &str, options: Option<String>) -> Result<String, Refusal> {
-    import::imported(text, format, options.as_deref())
+    imported(text, format, options.as_deref())
+}
+
+/// Imports a drawing, given as text. `format` is the name of its format. Returns JSON with the log of the import and
+/// the text of the scene file.
+fn imported(text: &str, format: &str, options: Option<&str>) -> Result<String, Refusal> {
+    let format = match format {
+        "svg" => Format::Svg,
+        "dxf" => Format::Dxf,
+        "geojson" | "json" => Format::GeoJson,
+        "wkt" => Format::Wkt,
+        other => return Err(format!("format must be svg, dxf, geojson, json or wkt, not {other:?}").into()),
+    };
+    Ok(imported_json(&import(text, format, &read_json(options, read)?)?))
+}
+
+/// Reads the options of an import. Their names are those of the fields of [`Options`] and of the keys of a scene file.
+/// In addition, `material` is the name of a stone. `frame` is counted from 1.
+fn read(given: &mut Given<'_, '_>) -> Options {
+    let stones = STONES.map(|stone| (stone.name, stone));
+    let material = given.key("material", |r, node, at| r.choice(node, at, &stones));
+    Options {
+        scale: given.number("scale"),
+        ratio: given.number("ratio"),
+        ground: [texts(given, "ground"), texts(given, "ground_layers")].concat(),
+        ignore: texts(given, "ignore"),
+        flip_y: given.flag("flip_y"),
+        flatten: given.number("flatten"),
+        gap: given.number("gap"),
+        frame: given.whole("frame", [1, u32::MAX]).map(|number| number as usize - 1),
+        scene: SceneFile {
+            title: given.text("title"),
+            friction: given.number("friction").or(material.map(|m| m.friction)),
+            density: given.number("density").or(material.map(|m| m.density)),
+            thickness: given.number("thickness"),
+            kernel: given.number("kernel"),
+            gravity: given.key("gravity", |r, node, at| r.vector(node, at)),
+            ..SceneFile::default()
+        },
+    }
+}
+
+/// Reads a list of texts; empty if the key is missing.
+fn texts(given: &mut Given<'_, '_>, key: &'static str) -> Vec<String> {
+    given.list(key, |r, node, at| r.text(node, at)).unwrap_or_default()
+}
+
+/// A scene that is changed often, for example while a block is dragged. It is analysed once for each change. The
+/// verdict, the result and the figures come from this analysis, unless a figure needs results that it lacks.
+#[wasm_bindgen]
+#[derive(Clone, Debug)]
+pub struct Session {
+    args: ResultArgs,
+    analysis: Analysis,
+}
+
+#[wasm_bindgen]
+impl Session {
+    /// Analyses a first scene with the options of `check`. Later scenes get the same options.
+    ///
+    /// # Errors
+    /// Returns the problems of the scene, or a message about an option that is not valid.
+    #[wasm_bindgen(constructor)]
+    pub fn new(scene: &str, options: Option<String>) -> Result<Session, Refusal> {
+        let args = read_json(options.as_deref(), ResultArgs::read)?;
+        let analysis = args.what.analysis(scene)?;
+        Ok(Session { args, analysis })
+    }
+
+    /// Replaces the scene and analyses it. Returns the worst verdict of its frames; from best to worst: stable,
+    /// undecided, unstable.
+    ///
+    /// # Errors
+    /// Returns the problems of the scene, or a message about an option that does not fit the scene, such as a frame
+    /// that does not exist. The session then keeps the previous scene.
+    pub fn set(&mut self, scene: &str) -> Result<String, Refusal> {
+        self.analysis = self.args.what.analysis(scene)?;
+        Ok(self.verdict())
+    }
+
+    /// Returns the worst verdict of all frames; from best to worst: stable, undecided, unstable.
+    pub fn verdict(&self) -> String {
+        self.analysis.verdict().word().to_owned()
+    }
+
+    /// Returns the result of the analysis as JSON, as the function `check` does.
+    pub fn result(&self) -> String {
+        self.args.written(&self.analysis)
+    }
+
+    /// Draws a figure of the scene as SVG. `options` are those of the function `figure`; `frame`, `broken`, `accuracy`,
+    /// `wedging`, `contact_tolerance` and `time_limit` have no effect. If the figure needs results that the session
+    /// lacks, the scene is analysed again with the default accuracy and without a time limit.
+    ///
+    /// # Errors
+    /// Returns a message about an option that is not valid.
+    pub fn figure(&self, options: Option<String>) -> Result<String, Refusal> {
+        read_json(options.as_deref(), PageArgs::read)?.drawn(&self.analysis)
+    }
 }

@@ -1,9 +1,8 @@
 //! What the functions for JavaScript return: results as JSON, and figures as SVG.
 
 use super::Refusal;
-use crate::entry::request::{
-    Background, CheckArgs, FigureArgs, FrameChoice, Refused, ThemeName, between, in_json, millimetres,
-};
+use crate::entry::request::{CheckArgs, FigureArgs, Refused, in_json};
+use crate::entry::value::{Background, FrameChoice, ThemeName, between, millimetres};
 use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::Sketch;
 use crate::pictures::drawing::style::format::Notation;

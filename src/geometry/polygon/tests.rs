@@ -153,3 +153,11 @@ fn placing_rotates_about_the_origin_and_then_moves() {
         }
     }
 }
+
+#[test]
+fn a_hull_has_no_inner_corners_and_runs_anticlockwise() {
+    let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [2.0, 2.0], [1.0, 1.0], [0.0, 2.0]];
+    let ring = convex_hull(points.map(|[x, y]| Point::new(x, y)).to_vec());
+    let expected = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    assert_eq!(ring, expected.map(|[x, y]| Point::new(x, y)).to_vec());
+}

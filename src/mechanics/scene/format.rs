@@ -11,7 +11,6 @@ mod declare;
 mod lines;
 mod load;
 mod map;
-mod question;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(super) mod setting;
 mod step;
@@ -21,19 +20,18 @@ mod unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use self::declare::{entry, word};
-use super::{NoteCode, Scene, SceneError};
-use crate::read::{Expected, Node, NodeKind, Read, Reader, Trail};
-
 pub use body::{BlockEntry, CircleEntry, ContactEntry, GroundEntry, LimitsEntry, RobotEntry};
 pub(crate) use lines::Lines;
-pub use load::{BlockSide, CaseEntry, DepthEntry, LoadEntry, PressureEntry};
+pub use load::{AxleEntry, BlockSide, CaseEntry, DepthEntry, LoadEntry, MovementEntry, PressureEntry, VehicleEntry};
 pub use map::Map;
-pub use question::{AxleEntry, MovementEntry, VehicleEntry};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use setting::Setting;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
 pub use unit::{ForceUnit, LengthUnit, UnitsEntry};
+
+use self::declare::{entry, word};
+use super::{NoteCode, Scene, SceneError};
+use crate::read::{Expected, Node, NodeKind, Read, Reader, Trail};
 
 /// A position or a displacement, `[x, y]`; y points up.
 pub type Pair = [f64; 2];

@@ -7,7 +7,6 @@
 mod applied_force;
 mod body;
 mod collision;
-mod fault;
 mod finding;
 pub mod format;
 mod heal;
@@ -17,7 +16,6 @@ mod number;
 mod outline;
 mod steps;
 mod problem;
-mod question;
 mod reading;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 mod changed;
@@ -33,7 +31,6 @@ pub use body::{
     Robot, RobotId, Spread,
 };
 pub use collision::Penetration;
-pub(crate) use fault::isolate;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use format::Setting;
 #[cfg(feature = "schema")]
@@ -41,13 +38,14 @@ pub use format::schema;
 pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
 pub use note::{Note, NoteCode};
+pub(crate) use problem::isolate;
 pub use problem::{Code, Place, Problem, SceneError};
-pub use question::{Axle, Movement, Vehicle};
 pub use reading::{falling_starter, starter};
 pub use resolution::SketchedBody;
 pub use sketch::{Sketch, Spot};
 pub use unit::Unit;
 
+use crate::geometry::quarter_turn;
 #[doc(inline)]
 pub use crate::geometry::{
     Bounds, Cell, CellShape, Lattice, LatticeKind, Point, Polygon, PolygonError, Tolerance, Vector,
@@ -310,4 +308,49 @@ impl Scene {
         let g = self.gravity.norm();
         if g > 0.0 { self.gravity / g } else { Vector::zeros() }
     }
+}
+
+/// A small movement of a part of the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Movement {
+    /// The index of the part of the ground, from 0.
+    pub ground: usize,
+    /// Translation in metres.
+    pub translation: Vector,
+    /// Rotation in radians, anticlockwise positive.
+    pub rotation: f64,
+    /// The point about which the part turns, metres.
+    pub about: Point,
+}
+
+impl Movement {
+    /// Returns the displacement of a point of the part, in metres, for a small rotation.
+    pub fn at(&self, point: Point) -> Vector {
+        self.translation + quarter_turn(point - self.about) * self.rotation
+    }
+}
+
+/// A vehicle that travels over the structure.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Vehicle {
+    /// The axles, the first in front.
+    pub axles: Vec<Axle>,
+    /// The blocks that the vehicle travels over; empty for all blocks.
+    pub over: Vec<BlockId>,
+    /// The distance between the analysed positions, metres; 0 for the positions with an axle at an end of a block's top.
+    pub step: f64,
+    /// Whether the vehicle also travels to the left.
+    pub both_ways: bool,
+}
+
+/// An axle of a vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Axle {
+    /// The weight on the axle, N.
+    pub weight: f64,
+    /// The distance behind the first axle, metres.
+    pub offset: f64,
 }

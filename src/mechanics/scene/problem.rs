@@ -6,10 +6,10 @@
 mod code;
 pub(super) mod message;
 pub(super) mod outline;
-pub(super) mod remedy;
 
 use std::fmt;
 use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub use code::Code;
 pub(super) use code::codes;
@@ -17,7 +17,7 @@ pub(super) use code::codes;
 use super::BodyId;
 use crate::geometry::Point;
 use crate::read::mistake::{write_problem, write_problems};
-use crate::read::{Broken, Kind, Mistake, Source};
+use crate::read::{Broken, Cause, Dialect, Expected, Kind, Mistake, NodeKind, Source};
 
 /// An error in a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -188,6 +188,130 @@ fn point(p: Point) -> String {
     pair([p.x, p.y])
 }
 
+/// The dialect of scene files.
+pub(in crate::mechanics::scene) const SCENE: Dialect = Dialect { noun: "scene", remedy, lines_before: 0 };
+
+fn remedy(cause: Cause<'_>) -> Option<String> {
+    let words = match cause {
+        Cause::WrongType { at, expected, found, written } => match (expected, found) {
+            (Expected::Point, NodeKind::Number(_)) => {
+                "write each point in brackets: an outline is [[x, y], [x, y], …], and `holes` is a list of outlines"
+            }
+            (Expected::Vector, NodeKind::Number(_)) => {
+                let size = written.trim_start_matches('-');
+                return Some(format!(
+                    "write [x, y], where y points up: {size} downwards is [0, -{size}]; gravity already acts on every block"
+                ));
+            }
+            (Expected::Number, NodeKind::Text(text)) if at.ends_in("friction") && !text.contains(',') => {
+                "write a number such as 0.6; to name what a body is made of, use `material`, and give its friction in `materials`"
+            }
+            (Expected::Number, NodeKind::Text(text)) if !text.contains(',') => {
+                "write a number without a unit; the units are metres, newtons, kilograms and degrees, unless the file gives other `units`"
+            }
+            (Expected::Object, NodeKind::Text(unit)) if at.ends_in("units") => {
+                let key = if matches!(unit.as_ref(), "N" | "kN" | "MN" | "lbf") { "force" } else { "length" };
+                return Some(format!("write \"units\": {{ \"{key}\": {written} }}"));
+            }
+            // Only the version of the format is read as a whole number.
+            (Expected::Whole, _) => "write 1, the version of the scene format",
+            _ => return None,
+        },
+        Cause::UnknownKey("cohesion" | "adhesion" | "mortar" | "tensile_strength", _) => {
+            "joints are dry: they transmit pressure and friction, but no tension; remove the key"
+        }
+        Cause::UnknownKey(key, known) => {
+            let meant = synonym(key).filter(|meant| known.contains(meant))?;
+            return Some(format!("the key is called `{meant}` here"));
+        }
+        Cause::MissingKey("drystone") => "add `\"drystone\": 1`, the version of the scene format",
+        Cause::MissingKey("blocks") => "add `\"blocks\": […]`, the list of blocks; it may be empty",
+        Cause::MissingKey(_) | Cause::NotToml => return None,
+        Cause::Empty => "start from the scene that `drystone new` writes",
+        Cause::OtherFormat("XML") => "a scene is written as JSON; `drystone import` converts a drawing to a scene",
+        Cause::OtherFormat(_) => {
+            "a scene is written as JSON, which begins with `{`; `drystone new` writes a scene to start from"
+        }
+        Cause::TooDeep => "a scene needs no more than seven levels of brackets",
+        Cause::Comment => "remove the comment; the key `title` can hold a text for people",
+        Cause::NotANumber => "give a finite number; if a robot has no limit, leave the limit out",
+    };
+    Some(words.into())
+}
+
+/// Returns the key of the scene format that means the same as `key`, a word that other programs use. `None` if no such
+/// key is known.
+fn synonym(key: &str) -> Option<&'static str> {
+    Some(match key.to_lowercase().as_str() {
+        "mu" | "μ" | "friction_coefficient" => "friction",
+        "floor" | "base" | "foundation" | "supports" => "ground",
+        "bodies" | "bricks" | "stones" | "elements" | "voussoirs" => "blocks",
+        "name" | "label" => "id",
+        "vertices" | "points" | "corners" | "coordinates" | "outline" => "polygon",
+        "color" | "colour" => "fill",
+        "rotation" | "rotate" | "theta" => "angle",
+        "position" | "pos" | "origin" | "offset" => "at",
+        "version" => "drystone",
+        "lattice" => "grid",
+        "forces" => "loads",
+        "torque_limit" | "moment" => "torque",
+        "tolerance" => "contact_tolerance",
+        _ => return None,
+    })
+}
+
+/// An environment variable for tests, which only builds with debug assertions read. If its value is `faulty#2`, the
+/// second call of [`isolate`] with a name that contains `faulty` panics.
+#[cfg(debug_assertions)]
+const FAULT_VARIABLE: &str = "DRYSTONE_TEST_FAULT";
+
+/// Calls `work` for one scene. If `work` panics, the panic becomes a problem with the code [`Code::InternalFault`]; the
+/// other scenes of a command are still processed.
+///
+/// `name` is the path of the scene, or another name for it. Only tests use it, to select a scene. A panic can leave the
+/// data that `work` changes in an invalid state, so the caller must not use these data afterwards.
+///
+/// # Errors
+/// If `work` panics: the internal error, as the only problem of the scene.
+pub(crate) fn isolate<R>(name: &str, work: impl FnOnce() -> R) -> Result<R, SceneError> {
+    let work = || {
+        inject_fault(name);
+        work()
+    };
+    catch_unwind(AssertUnwindSafe(work)).map_err(|_| SceneError { text: None, list: vec![internal_fault()] })
+}
+
+#[cfg(debug_assertions)]
+fn inject_fault(name: &str) {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    static WORKS: AtomicUsize = AtomicUsize::new(0);
+    let Ok(injected) = std::env::var(FAULT_VARIABLE) else {
+        return;
+    };
+    let (part, number) = injected.rsplit_once('#').unwrap_or((&injected, "1"));
+    if name.contains(part) {
+        let works = WORKS.fetch_add(1, Ordering::Relaxed) + 1;
+        assert!(works.to_string() != number, "a fault was injected into {name}");
+    }
+}
+
+#[cfg(not(debug_assertions))]
+fn inject_fault(_: &str) {}
+
+fn internal_fault() -> Problem {
+    Problem {
+        code: Code::InternalFault,
+        path: String::new(),
+        line: 0,
+        column: 0,
+        span: None,
+        message: "an internal error of the program occurred on this scene; the scene itself may be correct".into(),
+        help: "please report this error together with the scene".into(),
+        place: None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -207,5 +331,15 @@ mod tests {
         ] {
             assert_eq!(digits(x), text);
         }
+    }
+
+    #[test]
+    fn a_panic_becomes_a_problem_and_a_result_is_returned_unchanged() {
+        assert_eq!(isolate("a.json", || 7), Ok(7));
+        let numbers: Vec<usize> = Vec::new();
+        let fault = isolate("a.json", || numbers[3]).expect_err("a fault");
+        assert_eq!(fault.list.len(), 1);
+        assert_eq!(fault.list[0].code, Code::InternalFault);
+        assert!(fault.list[0].help.contains("report"));
     }
 }

@@ -8,8 +8,7 @@ use super::Scene;
 use super::finding::{self, Finding, UnreadParts};
 use super::format::SceneFile;
 use super::note::{self, Lines};
-use super::problem::SceneError;
-use super::problem::remedy::SCENE;
+use super::problem::{SCENE, SceneError};
 use super::resolution::resolve;
 use crate::read::{self, Dialect, Read, Reader, Source, Trail, syntax};
 

@@ -4,8 +4,7 @@
 //! A sketch is only for drawing, not for analysis: outlines may cross, and bodies may overlap.
 
 use super::format::UnitsEntry;
-use super::problem::remedy::SCENE;
-use super::problem::{Place, SceneError};
+use super::problem::{Place, SCENE, SceneError};
 use super::resolution::{self, SketchedBody};
 use super::{BlockId, BodyId, Scene, reading};
 use crate::geometry::{Bounds, Point};

@@ -9,7 +9,6 @@ pub mod arrow;
 mod camera;
 mod colour;
 pub mod difference;
-pub(crate) mod hatch;
 mod outline;
 pub(crate) mod ramp;
 pub mod style;
@@ -18,6 +17,7 @@ pub mod text;
 
 pub use camera::Camera;
 pub use colour::Colour;
+pub(crate) use outline::hatch;
 pub use outline::{Outline, Segment};
 pub use ramp::PLASMA;
 pub use style::{Sizes, Theme, Widths};
@@ -41,6 +41,11 @@ impl PagePoint {
     /// Returns the point moved right by `x` and down by `y` pixels.
     pub fn moved(self, x: f64, y: f64) -> PagePoint {
         PagePoint { x: self.x + x, y: self.y + y }
+    }
+
+    /// Returns the distance of another point, pixels.
+    pub(crate) fn distance(self, other: PagePoint) -> f64 {
+        libm::hypot(other.x - self.x, other.y - self.y)
     }
 }
 

@@ -1,18 +1,16 @@
 //! Writes animated PNG and GIF files, which show pictures one after the other and repeat endlessly.
 //!
-//! A picture is stored as the part that differs from the previous picture. If every pixel is opaque, all pictures share
-//! one palette, and files of both formats have about the same size.
+//! A picture is stored as a [`Patch`], the part that differs from the previous picture. If every pixel is opaque, all
+//! pictures share one [`Palette`] of at most 255 colours, with one more index for pixels that do not change. Files of both
+//! formats then have about the same size.
 
-mod palette;
-mod patch;
 #[cfg(test)]
 mod tests;
 
-use palette::{Palette, UNCHANGED_INDEX};
-use patch::{Patch, patches};
+use std::collections::BTreeMap;
 
 use super::fonts::Fonts;
-use super::png::{PngError, Size, rgba_in};
+use super::png::{PngError, Raster, Size, rgba_in};
 
 /// A picture of an animation.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,4 +118,211 @@ fn film(steps: &[Step], size: Size, fonts: &Fonts) -> Result<(Vec<Patch>, [u32; 
     }
     let rasters = steps.iter().map(|step| Ok((rgba_in(&step.svg, size, fonts)?, step.seconds)));
     patches(rasters)
+}
+
+/// A rectangle of new pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Patch {
+    /// Distance of the left edge of the patch from the left edge of the picture, pixels.
+    pub x: u32,
+    /// Distance of the upper edge of the patch from the upper edge of the picture, pixels.
+    pub y: u32,
+    /// Width of the patch in pixels.
+    pub width: u32,
+    /// Height of the patch in pixels.
+    pub height: u32,
+    /// The pixels row by row: the new colour of a pixel, and whether it differs from the old colour.
+    pub pixels: Vec<([u8; 4], bool)>,
+    /// The time for which the picture is shown, hundredths of a second.
+    pub hundredths: u16,
+}
+
+impl Patch {
+    /// Returns the red, green, blue and alpha bytes of all pixels of the patch, including unchanged pixels.
+    pub fn all_pixels(&self) -> Vec<u8> {
+        self.pixels.iter().flat_map(|(colour, _)| *colour).collect()
+    }
+}
+
+/// Converts pictures, each with its duration in seconds, to patches. Returns the patches, and the width and height of
+/// the pictures in pixels. A picture that equals the previous picture gets no patch; its duration is added to that of
+/// the previous picture.
+fn patches(rasters: impl Iterator<Item = Result<(Raster, f64), PngError>>) -> Result<(Vec<Patch>, [u32; 2]), PngError> {
+    let mut patches: Vec<Patch> = Vec::new();
+    let mut last: Option<Raster> = None;
+    for raster in rasters {
+        let (raster, seconds) = raster?;
+        let hundredths = (seconds * 100.0).round() as u16;
+        if let Some(last) = &last
+            && (last.width, last.height) != (raster.width, raster.height)
+        {
+            return Err(PngError::Encode("the pictures differ in size".to_owned()));
+        }
+        match (patch(last.as_ref(), &raster, hundredths), patches.last_mut()) {
+            (None, Some(before)) => before.hundredths = before.hundredths.saturating_add(hundredths),
+            (patch, _) => patches.extend(patch),
+        }
+        last = Some(raster);
+    }
+    let size = last.map_or([0, 0], |last| [last.width, last.height]);
+    Ok((patches, size))
+}
+
+/// Returns the smallest patch that contains all pixels that differ from the previous picture `before`. Returns `None`
+/// if no pixel differs. Without a previous picture, the patch is the whole picture.
+fn patch(before: Option<&Raster>, raster: &Raster, hundredths: u16) -> Option<Patch> {
+    let across = raster.width as usize;
+    let Some(before) = before else {
+        return Some(Patch {
+            x: 0,
+            y: 0,
+            width: raster.width,
+            height: raster.height,
+            pixels: raster.rgba.iter().map(|colour| (*colour, true)).collect(),
+            hundredths,
+        });
+    };
+    let rows = before.rgba.chunks(across).zip(raster.rgba.chunks(across));
+    let changed: Vec<usize> = rows.enumerate().filter_map(|(y, (old, new))| (old != new).then_some(y)).collect();
+    let (top, bottom) = (*changed.first()?, *changed.last()?);
+    let (mut left, mut right) = (across, 0);
+    for y in changed {
+        let row = y * across..(y + 1) * across;
+        let (old, new) = (&before.rgba[row.clone()], &raster.rgba[row]);
+        let differs = |x: &usize| old[*x] != new[*x];
+        left = left.min((0..across).find(differs).unwrap_or(across));
+        right = right.max((0..across).rev().find(differs).unwrap_or(0));
+    }
+    let mut pixels = Vec::with_capacity((right + 1 - left) * (bottom + 1 - top));
+    for y in top..=bottom {
+        let row = y * across + left..=y * across + right;
+        let both = before.rgba[row.clone()].iter().zip(&raster.rgba[row]);
+        pixels.extend(both.map(|(old, new)| (*new, old != new)));
+    }
+    Some(Patch {
+        x: left as u32,
+        y: top as u32,
+        width: (right + 1 - left) as u32,
+        height: (bottom + 1 - top) as u32,
+        pixels,
+        hundredths,
+    })
+}
+
+/// The index of a pixel that does not change.
+const UNCHANGED_INDEX: u8 = 0;
+/// Largest number of colours, which have the other indices.
+const MAX_COLOURS: usize = 255;
+/// If there are more colours, this number of the most frequent colours is kept exactly. These are usually fills and
+/// lines.
+const EXACT_COLOURS: usize = 96;
+/// All other colours are grouped by the leading bits of each channel. Fewer than this number of bits per channel are
+/// compared.
+const CHANNEL_BITS: u32 = 7;
+
+/// The colours of an animation.
+struct Palette {
+    /// The colours in the order of their indices, which begin at 1.
+    colours: Vec<[u8; 3]>,
+    /// The index of the nearest palette colour for each colour of the pictures.
+    numbers: BTreeMap<[u8; 3], u8>,
+}
+
+impl Palette {
+    /// Creates the palette for all pictures of an animation. Returns `None` if a changed pixel is not opaque.
+    pub fn new(patches: &[Patch]) -> Option<Palette> {
+        let counts = counts(patches)?;
+        let colours = chosen(&counts);
+        let number = |colour: &[u8; 3]| {
+            let near = colours.iter().enumerate();
+            let nearest = near.min_by_key(|(_, other)| distance(*colour, **other));
+            nearest.map_or(UNCHANGED_INDEX, |(number, _)| number as u8 + 1)
+        };
+        let numbers = counts.keys().map(|colour| (*colour, number(colour)));
+        Some(Palette { numbers: numbers.collect(), colours })
+    }
+
+    /// Returns the number of indices in the palette, including the index of unchanged pixels.
+    pub fn len(&self) -> usize {
+        self.colours.len() + 1
+    }
+
+    /// Returns the bytes of the palette: red, green and blue for each index in order.
+    pub fn bytes(&self) -> Vec<u8> {
+        let all = [[0; 3]].into_iter().chain(self.colours.iter().copied());
+        all.flatten().collect()
+    }
+
+    /// Returns an index for each pixel of a patch, row by row: that of its colour in the palette, or
+    /// [`UNCHANGED_INDEX`] if the pixel does not change.
+    pub fn indices(&self, patch: &Patch) -> Vec<u8> {
+        // Neighbouring pixels often have the same colour, so keep the last colour and its index.
+        let mut known = ([0; 3], None);
+        let number = |(colour, changed): &([u8; 4], bool)| {
+            if !changed {
+                return UNCHANGED_INDEX;
+            }
+            let colour = opaque(*colour);
+            if known.1.is_none() || known.0 != colour {
+                known = (colour, self.numbers.get(&colour).copied());
+            }
+            known.1.unwrap_or(UNCHANGED_INDEX)
+        };
+        patch.pixels.iter().map(number).collect()
+    }
+}
+
+fn opaque([red, green, blue, _]: [u8; 4]) -> [u8; 3] {
+    [red, green, blue]
+}
+
+/// Counts the changed pixels of each colour. Returns `None` if a changed pixel is not opaque.
+fn counts(patches: &[Patch]) -> Option<BTreeMap<[u8; 3], usize>> {
+    let mut counts = BTreeMap::new();
+    let changed = |patch: &'_ Patch| -> Vec<[u8; 4]> {
+        let pixels = patch.pixels.iter().filter(|(_, changed)| *changed);
+        pixels.map(|(colour, _)| *colour).collect()
+    };
+    for patch in patches {
+        for alike in changed(patch).chunk_by(|a, b| a == b) {
+            if alike[0][3] != u8::MAX {
+                return None;
+            }
+            *counts.entry(opaque(alike[0])).or_insert(0) += alike.len();
+        }
+    }
+    Some(counts)
+}
+
+/// Returns the colours of the palette. Up to [`MAX_COLOURS`] colours are all kept. If there are more, the result has
+/// the most frequent colours, and one colour for each group of similar colours among the others.
+fn chosen(counts: &BTreeMap<[u8; 3], usize>) -> Vec<[u8; 3]> {
+    let mut colours: Vec<([u8; 3], usize)> = counts.iter().map(|(c, n)| (*c, *n)).collect();
+    if colours.len() > MAX_COLOURS {
+        colours.sort_by_key(|(colour, count)| (core::cmp::Reverse(*count), *colour));
+        let others = colours.split_off(EXACT_COLOURS);
+        colours.extend(reduced(&others, MAX_COLOURS - EXACT_COLOURS));
+    }
+    colours.into_iter().map(|(colour, _)| colour).collect()
+}
+
+/// Groups colours that have the same leading bits in each channel, and returns the first colour of each group. Compares
+/// as many bits as possible such that there are at most `most` groups.
+fn reduced(colours: &[([u8; 3], usize)], most: usize) -> Vec<([u8; 3], usize)> {
+    for bits in (1..CHANNEL_BITS).rev() {
+        let mut groups = BTreeMap::new();
+        for (colour, count) in colours {
+            let group = colour.map(|channel| channel >> (8 - bits));
+            groups.entry(group).or_insert((*colour, *count));
+        }
+        if groups.len() <= most {
+            return groups.into_values().collect();
+        }
+    }
+    Vec::new()
+}
+
+fn distance(a: [u8; 3], b: [u8; 3]) -> u32 {
+    let channels = a.into_iter().zip(b);
+    channels.map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum()
 }

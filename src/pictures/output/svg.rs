@@ -7,20 +7,10 @@
 
 #[cfg(feature = "embed")]
 mod font;
-#[cfg(feature = "png")]
-mod glyph;
-mod option;
 mod outline;
 #[cfg(feature = "report")]
 mod pair;
 mod words;
-/// Rounds a number to ten significant digits.
-///
-/// The scale and the origin of a figure can depend on the positions of displaced blocks, which a solver computes. The
-/// last digits of these positions differ between a browser and the program, but both must write the same picture.
-fn ten_digits(value: f64) -> f64 {
-    format!("{value:.9e}").parse().unwrap_or(value)
-}
 
 #[cfg(test)]
 mod tests;
@@ -28,9 +18,9 @@ mod tests;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-pub use option::{Options, Words};
 use outline::{number, steps};
 
+use super::fonts::Fonts;
 #[cfg(feature = "png")]
 use super::tree;
 use crate::pictures::drawing::{Drawing, Face, Group, Item, Join, PageRect, Path, Stroke};
@@ -40,6 +30,48 @@ use crate::text::xml;
 #[derive(Debug, thiserror::Error)]
 #[error("the text of the drawing cannot be written in this form: {0}")]
 pub struct OutlineError(String);
+
+/// How text is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Words {
+    /// As text, with the names of the fonts. The file is small, but its look depends on the fonts of the reader.
+    #[default]
+    Names,
+    /// As text, with the used glyphs embedded in the file; for browsers.
+    #[cfg(feature = "embed")]
+    Embedded,
+    /// As outlines. The file looks the same everywhere, but its text cannot be searched or edited.
+    #[cfg(feature = "png")]
+    Outlines,
+}
+
+/// The options of an SVG file.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Options {
+    /// Width in print, mm; for `None` one pixel is 1/96 inch.
+    pub width_mm: Option<f64>,
+    /// How text is written.
+    pub words: Words,
+    /// The fonts for text that is embedded or written as outlines.
+    pub fonts: Fonts,
+    /// The prefix of the ids of all elements. It consists of letters and digits. For `None`, the prefix is a hash of
+    /// the drawing and the options. If a page contains the same drawing twice, each copy needs a different prefix.
+    pub mark: Option<String>,
+}
+
+impl Options {
+    setters! {
+        words: Words, "How text is written.";
+        fonts: Fonts, "The fonts for text that is embedded or written as outlines.";
+    }
+
+    optional_setters! {
+        width_mm: f64, "Width in print, mm.";
+        mark: String, "The prefix of the ids of all elements, of letters and digits.";
+    }
+}
 
 /// Writes a drawing as an SVG document. Text is written as text, not as outlines.
 ///
@@ -119,7 +151,7 @@ pub fn write_with(drawing: &Drawing, options: &Options) -> Result<String, Outlin
         Words::Outlines => {
             let tree = laid_out(drawing, options)?;
             let texts = tree::texts(tree.root());
-            let outlines = texts.iter().filter_map(|t| glyph::numbered(t)).collect();
+            let outlines = texts.iter().filter_map(|t| outline::numbered(t)).collect();
             let form = Form::Outlines(&outlines);
             Ok(document(drawing, options.width_mm, &mark, form))
         }
@@ -365,4 +397,12 @@ fn holds_titles(items: &[Item]) -> bool {
 fn fold(text: &str) -> u32 {
     let hash = crate::text::hash(text.as_bytes());
     (hash ^ (hash >> 32)) as u32
+}
+
+/// Rounds a number to ten significant digits.
+///
+/// The scale and the origin of a figure can depend on the positions of displaced blocks, which a solver computes. The
+/// last digits of these positions differ between a browser and the program, but both must write the same picture.
+fn ten_digits(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
 }

@@ -7,8 +7,8 @@
 //! ([Vallat23](crate::doc::references) §2.0.9). Arrows of robots are wider. Arrows of missing forces are widest and
 //! red. The length of an arrow is proportional to its force; [`Head`] states whether the head counts towards this length.
 
+use super::design::{unit, zoomed_view};
 use super::option::{ForceStyle, Normalisation, Options};
-use super::unit::{contains, unit, zoomed_view};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::analysis::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::mechanics::scene::{BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
@@ -186,7 +186,7 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
     let (frame, frame_analysis) = (&scene.frames[frame], &analysis.frames[frame]);
     let edge = unit(scene, options.zoom);
     let near = options.zoom.map(|block| zoomed_view(scene, block));
-    let shown = |at: Point| near.is_none_or(|near| contains(near, at));
+    let shown = |at: Point| near.is_none_or(|near| near.contains(at));
     let blocks = frame.placed.iter().map(|b| &scene.blocks[b.0]);
     let blocks = blocks.filter(|b| shown(b.centroid));
     let weights = blocks.map(|b| b.weight);

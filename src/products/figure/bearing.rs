@@ -1,10 +1,10 @@
 //! [`Bearing`]: the normal force of an interface, its eccentricity (how near the interface is to opening), and the used
 //! fraction of its friction; and the robots that reach their limits.
 
-use super::words::FULL_UTILISATION;
 use crate::mechanics::analysis::{Contact, FrameAnalysis, RobotForce, Verdict};
 use crate::mechanics::scene::{BodyId, RobotId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
+use crate::products::wording::number::FULL_UTILISATION;
 
 /// Forces below this fraction of the largest force may be numerical noise of the solver, unless they exceed
 /// [`WEIGHT_TOL`] times the weight of the block.

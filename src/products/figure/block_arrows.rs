@@ -4,22 +4,18 @@
 
 use std::rc::Rc;
 
-use super::about::About;
 use super::arrow::{self, ArrowKind, ForceArrow, round_above};
 use super::canvas::Canvas;
-use super::description;
-use super::design::{Key, Layer, Mark};
+use super::design::{Key, Layer, Mark, unit};
 use super::fill::Fills;
-use super::joint_forces;
 use super::option::ArrowScale;
-use super::panel::Figure;
+use super::panel::{About, Figure};
 use super::parallel_arrows::separate_parallel_arrows;
 use super::placing::Label;
-use super::stage;
-use super::unit::unit;
-use super::words::{quantity, round_below_in};
+use super::{description, joint_forces, stage};
 use crate::mechanics::scene::BodyId;
 use crate::pictures::drawing::{self, Colour, Face, Outline, PagePoint, Path, Stroke, text};
+use crate::products::wording::number::{quantity, round_below_in};
 
 /// Least length of the arrow of the largest force, mm.
 const LONGEST: f64 = 6.0;
@@ -59,7 +55,7 @@ impl Figure for BlockArrows {
             let symbol = stage::colour_bar(canvas, COLOURS_LENGTH, |share| fills.colour(canvas.theme(), share));
             let ([least, most], what) = fills.key();
             let words = format!("{least} to {most}: {what}");
-            canvas.explain(Key { rank: 65, words, symbol, width: canvas.mm(COLOURS_LENGTH) });
+            canvas.explain(Key::new(65, words, symbol, canvas.mm(COLOURS_LENGTH)));
         }
         let largest = largest(canvas);
         if largest > 0.0 {
@@ -192,8 +188,8 @@ fn force_key(canvas: &Canvas<'_>) -> Rc<Key> {
     }
     let step = canvas.mm(2.6);
     let symbol = colours.iter().enumerate().map(|(n, colour)| symbol(canvas, n as f64 * step, 0.9 * step, *colour));
-    let words = "one colour per block".to_owned();
-    Rc::new(Key { rank: 22, words, symbol: symbol.collect(), width: (colours.len() as f64 - 0.1) * step })
+    let words = "one colour per block";
+    Key::new(22, words, symbol.collect(), (colours.len() as f64 - 0.1) * step)
 }
 
 fn weight_key(canvas: &Canvas<'_>) -> Rc<Key> {
@@ -201,7 +197,7 @@ fn weight_key(canvas: &Canvas<'_>) -> Rc<Key> {
     let start = canvas.mm(0.9);
     let circle = circle(canvas, PagePoint::new(start, 0.0), canvas.mm(0.45), colour);
     let symbol = vec![symbol(canvas, start, long - start, colour), circle];
-    Rc::new(Key { rank: 30, words: "weight".to_owned(), symbol, width: long })
+    Key::new(30, "weight", symbol, long)
 }
 
 /// Returns the entry that explains the shortest arrows.
@@ -213,7 +209,7 @@ fn tick_key(canvas: &Canvas<'_>) -> Rc<Key> {
     } else {
         "a smaller force".to_owned()
     };
-    Rc::new(Key { rank: 15, words, symbol: vec![symbol(canvas, 0.0, tick, canvas.theme().arrow(1))], width: tick })
+    Key::new(15, words, vec![symbol(canvas, 0.0, tick, canvas.theme().arrow(1))], tick)
 }
 
 /// Shows the scale of the arrows: in the legend if all panels share it, otherwise below the picture.
@@ -224,7 +220,7 @@ fn scale(canvas: &mut Canvas<'_>, largest: f64) {
     let (length, words) = (canvas.scale * newtons, quantity(newtons, units));
     if canvas.has_one_scale() {
         let symbol = vec![symbol(canvas, 0.0, length, ink)];
-        canvas.explain(Key { rank: 12, words: format!("{words} on a block"), symbol, width: length });
+        canvas.explain(Key::new(12, format!("{words} on a block"), symbol, length));
     } else if canvas.options.keys {
         let size = canvas.look.text * canvas.theme().sizes.amount;
         let (all, gap, wide) = (canvas.extent(), canvas.mm(1.2), text::width(&words, Face::Sans, size));

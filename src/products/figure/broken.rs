@@ -6,10 +6,9 @@ use super::option::Options;
 use crate::geometry::{Bounds, Point};
 use crate::mechanics::scene::{BodyId, Code, Problem, Sketch, SketchedBody, Spot};
 use crate::mechanics::statics::interface::Interfaces;
-use crate::pictures::drawing::hatch::{hatch, lines};
 use crate::pictures::drawing::text::{cut, width, wrap};
 use crate::pictures::drawing::{
-    Anchor, Camera, Drawing, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text,
+    Anchor, Camera, Drawing, Face, Group, Outline, PagePoint, PageRect, Path, Stroke, Text, hatch,
 };
 
 /// Largest number of problems that are marked and listed, and also of gaps. All others are only counted.
@@ -252,7 +251,7 @@ fn structure(sketch: &Sketch, marks: &[NumberedMark], camera: &Camera, rect: Pag
             };
             let common = shared(&hatch(&rings(a), rect, HATCH_SPACING), &hatch(&rings(b), rect, HATCH_SPACING));
             let stroke = Stroke::new(theme.failure, 1.4);
-            group = group.with(Path::stroked(lines(&common), stroke));
+            group = group.with(Path::stroked(Outline::lines(common), stroke));
         }
     }
     for body in &sketch.bodies {
@@ -356,7 +355,7 @@ fn free_disc_position(place: PagePoint, taken: &[PagePoint]) -> PagePoint {
     const DIRECTIONS: [(f64, f64); 8] =
         [(0.7, -0.7), (-0.7, -0.7), (0.7, 0.7), (-0.7, 0.7), (0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)];
     let clear = |at: &PagePoint| {
-        let distance = |other: &PagePoint| libm::hypot(at.x - other.x, at.y - other.y);
+        let distance = |other: &PagePoint| at.distance(*other);
         taken.iter().all(|other| distance(other) > 2.2 * DISC_RADIUS)
     };
     let far = |turn: usize| 2.2 * DISC_RADIUS * (1 + turn) as f64;

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use super::displacement::Course;
 use super::fall::Fall;
-use super::{funicular, unit};
+use super::{design, funicular};
 use crate::geometry::Point;
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::mechanics::scene::{Body, Frame, Scene};
@@ -53,7 +53,7 @@ pub fn dxf(analysis: &Analysis, frame: usize) -> String {
     let (Some(placed), Some(frame_analysis)) = (scene.frames.get(frame), analysis.frames.get(frame)) else {
         return String::new();
     };
-    let unit = unit::unit(scene, None);
+    let unit = design::unit(scene, None);
     let mut file = DxfWriter::default();
     file.head();
     for ground in &scene.ground {

@@ -194,13 +194,12 @@ impl<'a> Canvas<'a> {
 
     /// Adds an entry to the legend that explains no mark.
     pub fn note(&mut self, rank: u8, words: &str) {
-        let key = Key { rank, words: words.to_owned(), symbol: Vec::new(), width: 0.0 };
-        self.notes.push(Rc::new(key));
+        self.notes.push(Key::new(rank, words, Vec::new(), 0.0));
     }
 
     /// Adds an entry to the legend, whether or not it explains a mark.
-    pub fn explain(&mut self, key: impl Into<Rc<Key>>) {
-        self.notes.push(key.into());
+    pub fn explain(&mut self, key: Rc<Key>) {
+        self.notes.push(key);
     }
 
     /// Returns the smallest rectangle around the structure and all marks that are already drawn, pixels.

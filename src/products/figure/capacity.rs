@@ -10,22 +10,21 @@ mod plan;
 
 use std::rc::Rc;
 
-use super::about::About;
+use plan::Plan;
+
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, along, moved_edge, small_block};
+use super::design::{ArrowSize, Key, Layer, Mark, along, moved_edge, small_block, unit};
 use super::displacement::{Course, Displacement};
 use super::fall::Fall;
 use super::option::Options;
-use super::panel::{Figure, Subject};
+use super::panel::{About, Figure, Subject};
 use super::placing::Label;
 use super::stage;
-use super::unit::unit;
-use super::words::{quantity, round_below_in};
 use crate::geometry::{Bounds, Point, in_half_plane};
 use crate::mechanics::analysis::{Analysis, CapacityShape};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
 use crate::products::wording;
-use plan::Plan;
+use crate::products::wording::number::{quantity, round_below_in};
 
 /// Opacity of the area of carried forces.
 const AREA_OPACITY: f64 = 0.34;
@@ -163,7 +162,7 @@ fn polygon(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
     let point = canvas.place(plan.point);
     if plan.is_apart {
         // A dotted line leads from the loaded point to the nearest corner of the polygon.
-        let far = |p: &PagePoint| libm::hypot(p.x - point.x, p.y - point.y);
+        let far = |p: &PagePoint| p.distance(point);
         let to = ring.iter().copied().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(point);
         let dotted = Stroke::new(theme.faint, canvas.mm(0.2)).dashed([canvas.mm(0.3), canvas.mm(0.6)]);
         let place = if ends.len() > 1 { loaded } else { dot(canvas, point) };
@@ -177,8 +176,8 @@ fn polygon(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
         // of all forces are at the dot.
         let long = canvas.mm(4.8);
         let symbol = vec![arrow(canvas, PagePoint::new(0.0, 0.0), PagePoint::new(long, 0.0))];
-        let words = "example of a carried force".to_owned();
-        let key = Rc::new(Key { rank: 12, words, symbol, width: long });
+        let words = "example of a carried force";
+        let key = Key::new(12, words, symbol, long);
         let shapes = vec![arrow(canvas, zero, canvas.place(plan.middle()))];
         canvas.put(Mark::new(Layer::Symbol, "example", shapes).keyed(&key).avoided(canvas.mm(0.1)));
     }
@@ -188,13 +187,10 @@ fn polygon(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
 /// Draws the polygon of carried forces of the previous step as a dashed outline.
 fn earlier(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
     let stroke = Stroke::new(canvas.theme().faint, canvas.mm(0.2)).dashed([canvas.mm(0.75), canvas.mm(0.55)]);
-    let width = canvas.mm(4.8);
-    let line = Outline::line([PagePoint::new(0.0, 0.0), PagePoint::new(width, 0.0)]);
-    let symbol = vec![Path::stroked(line, stroke.clone())];
-    let key = Rc::new(Key { rank: 14, words: "in the previous step".to_owned(), symbol, width });
+    let key = Key::line(14, "in the previous step", canvas.mm(4.8), stroke.clone());
     let ring = plan.ring.iter().map(|p| canvas.place(*p));
     let mark = Mark::new(Layer::Force, "before", vec![Path::stroked(Outline::ring(ring), stroke)]).keyed(&key);
-    canvas.put(mark.titled("The forces that the block could carry in the previous step".to_owned()));
+    canvas.put(mark.titled("The forces that the block could carry in the previous step"));
 }
 
 fn area_key(canvas: &Canvas<'_>, plan: &Plan<'_>) -> Rc<Key> {
@@ -204,27 +200,27 @@ fn area_key(canvas: &Canvas<'_>, plan: &Plan<'_>) -> Rc<Key> {
         vec![Path::filled(swatch.clone(), canvas.theme().safe).with_opacity(AREA_OPACITY), Path::stroked(swatch, edge)];
     let words =
         if plan.is_apart { "tips of the carried forces" } else { "tips of the carried forces, tails at the dot" };
-    Rc::new(Key { rank: 10, words: words.to_owned(), symbol, width })
+    Key::new(10, words, symbol, width)
 }
 
 /// Returns the entry with the scale of the forces.
-fn scale_key(canvas: &Canvas<'_>, plan: &Plan<'_>) -> Key {
+fn scale_key(canvas: &Canvas<'_>, plan: &Plan<'_>) -> Rc<Key> {
     let units = canvas.scene().units.force();
     let pixels = canvas.camera.length(plan.scale);
     let newtons = round_below_in(canvas.mm(MAX_SCALE_ARROW) / pixels, units);
     let width = newtons * pixels;
     let symbol = vec![arrow(canvas, PagePoint::new(0.0, 0.0), PagePoint::new(width, 0.0))];
-    Key { rank: 13, words: quantity(newtons, units), symbol, width }
+    Key::new(13, quantity(newtons, units), symbol, width)
 }
 
-fn open_key(canvas: &Canvas<'_>) -> Key {
+fn open_key(canvas: &Canvas<'_>) -> Rc<Key> {
     let (start, end) = (PagePoint::new(0.0, 0.0), PagePoint::new(canvas.mm(3.6), 0.0));
     let ink = colour(canvas.theme());
     let symbol = vec![
         Path::stroked(Outline::line([start, end]), Stroke::new(ink, canvas.mm(EDGE_WIDTHS.1))),
         Path::filled(open_end(canvas, end, start), ink),
     ];
-    Key { rank: 15, words: "without limit".to_owned(), symbol, width: canvas.mm(4.8) }
+    Key::new(15, "without limit", symbol, canvas.mm(4.8))
 }
 
 /// Returns a small triangle at `end`, which shows that the edge from `other` continues beyond `end` without limit.

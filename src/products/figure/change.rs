@@ -3,10 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use super::words::counted;
 use crate::geometry::Vector;
 use crate::mechanics::analysis::Contact;
 use crate::mechanics::scene::{BodyId, Scene};
+use crate::products::wording::number::counted;
 
 /// A force has changed if the difference exceeds this fraction of the larger of the two forces. If the forces of a
 /// frame are not unique, smaller differences can come from the solver.

@@ -4,10 +4,10 @@ use core::cell::RefCell;
 use std::collections::BTreeSet;
 
 use super::fall::{Fall, Joint};
-use super::words::{counted, listed};
 use crate::mechanics::analysis::{Analysis, Motion, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId};
 use crate::pictures::drawing::text::NO_BREAK;
+use crate::products::wording::number::{counted, listed};
 
 /// Largest number of blocks of a body that are named.
 const MAX_NAMED_BLOCKS: usize = 4;

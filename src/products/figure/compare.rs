@@ -5,21 +5,18 @@
 //! changed by more than 5 % of the larger of the two forces. The previous force is drawn there in a faint colour below
 //! the present force. The words name the loads that changed.
 
-use std::rc::Rc;
-
-use super::about::About;
 use super::canvas::Canvas;
 use super::change::{ForceChange, count_in_words, noise, shared_forces};
-use super::description;
 use super::design::{Key, Layer, Look, Mark, small_block};
 use super::joint_forces::{JointForces, mark};
 use super::option::Options;
-use super::panel::{Figure, View};
-use super::words::{force, listed, quantity};
+use super::panel::{About, Figure, View};
 use crate::geometry::Vector;
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::pictures::drawing::{Outline, PagePoint, Path, Stroke};
+use crate::products::wording::failure::pair;
+use crate::products::wording::number::{force, listed, quantity};
 
 /// The radius of the ring that marks a change, mm.
 const RING_RADIUS: f64 = 1.5;
@@ -115,14 +112,14 @@ fn outlines(canvas: &mut Canvas<'_>) {
     for (class, ids, stroke, (rank, words), title) in all {
         let (swatch, width) = small_block(canvas.look);
         let symbol = vec![Path::stroked(swatch, stroke.clone())];
-        let key = Rc::new(Key { rank, words: words.into(), symbol, width });
+        let key = Key::new(rank, words, symbol, width);
         let mut outline = Outline::default();
         for id in &ids {
             outline.extend(canvas.camera.polygon(&scene.blocks[id.0].body.polygon));
         }
         if !ids.is_empty() {
             let mark = Mark::new(Layer::Force, class, vec![Path::stroked(outline, stroke)]).keyed(&key);
-            canvas.put(mark.titled(title.into()));
+            canvas.put(mark.titled(title));
         }
     }
 }
@@ -150,11 +147,11 @@ fn rings(canvas: &mut Canvas<'_>, changes: &[ForceChange<'_>]) {
     let stroke = Stroke::new(canvas.theme().motion, canvas.mm(0.3));
     let small = 0.7 * radius;
     let symbol = vec![Path::stroked(Outline::circle(PagePoint::new(small, 0.0), small), stroke.clone())];
-    let words = "force changed by over 5\u{a0}%; before: faint".to_owned();
-    let key = Rc::new(Key { rank: 16, words, symbol, width: 2.0 * small });
+    let words = "force changed by over 5\u{a0}%; before: faint";
+    let key = Key::new(16, words, symbol, 2.0 * small);
     for change in changes {
         let now = change.contacts[1];
-        let pair = description::pair(scene, now.interface.bodies);
+        let pair = pair(scene, now.interface.bodies);
         let [was, is] = change.amounts().map(|amount| quantity(amount, scene.units.force()));
         let ring = Path::stroked(Outline::circle(canvas.place(now.resultant.at), radius), stroke.clone());
         let mark = Mark::new(Layer::Symbol, "change", vec![ring]).keyed(&key);

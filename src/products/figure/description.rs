@@ -1,10 +1,12 @@
-//! Describes arrows and motions in words, with numbers and units, for tooltips and screen readers.
+//! Describes arrows and motions in words, with numbers and units, for tooltips and screen readers; [`caption`] describes a
+//! figure.
 
 use super::arrow::{ArrowKind, ForceArrow};
-use super::words::{force, quantity};
-use crate::mechanics::analysis::Motion;
+use crate::mechanics::analysis::{Analysis, Motion, Verdict};
 use crate::mechanics::scene::{BodyId, Scene};
-pub(crate) use crate::products::wording::failure::{named, pair};
+use crate::products::wording::failure::named;
+use crate::products::wording::number::{force, letter, quantity};
+use crate::products::wording::verdict::reasons;
 
 /// Describes the force that an arrow shows, such as `Weight of block a: 6 N at 270°`.
 /// `unit` is the unit length, metres.
@@ -53,4 +55,40 @@ pub(crate) fn motion(scene: &Scene, motion: &Motion) -> String {
     } else {
         format!("{begins}, turning {turning:.3}° {sense} per metre that the fastest point moves")
     }
+}
+
+/// Returns the caption of a figure: the title, followed by the verdict and its reasons for every frame.
+///
+/// ```
+/// use drystone::{Analysis, Scene, figure};
+/// let scene = Scene::from_json(r#"{ "drystone": 1, "title": "An overhang",
+///     "ground": [{ "polygon": [[0, 0], [2, 0], [2, -1], [0, -1]] }],
+///     "blocks": [{ "id": "plank", "polygon": [[1, 0], [5, 0], [5, 1], [1, 1]], "weight": 8 }] }"#)?;
+/// let words = figure::caption(&Analysis::new(&scene));
+/// assert_eq!(words, "An overhang. It falls: block plank would have to stick to the ground with 8 N.");
+/// # Ok::<(), drystone::scene::SceneError>(())
+/// ```
+pub fn caption(analysis: &Analysis) -> String {
+    let scene = &analysis.scene;
+    let mut sentences = Vec::new();
+    if !scene.title.is_empty() {
+        sentences.push(format!("{}.", scene.title.trim_end_matches('.')));
+    }
+    let several = analysis.frames.len() > 1;
+    for (number, frame_analysis) in analysis.frames.iter().enumerate() {
+        let verdict = frame_analysis.verdict.plain();
+        let verdict = match frame_analysis.verdict {
+            Verdict::Undecided => format!("is {verdict}"),
+            _ => verdict.to_owned(),
+        };
+        let reasons = reasons(scene, frame_analysis);
+        let reasons = if reasons.is_empty() { String::new() } else { format!(": {reasons}") };
+        let title = &scene.frames[number].title;
+        sentences.push(match (several, title.as_str()) {
+            (false, _) => format!("It {verdict}{reasons}."),
+            (true, "") => format!("({}) It {verdict}{reasons}.", letter(number)),
+            (true, title) => format!("({}) {title}: it {verdict}{reasons}.", letter(number)),
+        });
+    }
+    sentences.join(" ")
 }

@@ -1,10 +1,11 @@
-//! What a picture is made of: sizes ([`Look`]), layers, marks and their keys, and arrows.
+//! What a picture is made of: sizes ([`Look`], [`unit()`]), layers, marks and their keys, and arrows.
 
 use std::rc::Rc;
 
 use super::option::Options;
-use crate::mechanics::scene::Rgb;
-use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Theme};
+use crate::geometry::{Bounds, Vector};
+use crate::mechanics::scene::{Block, BlockId, Rgb, Scene};
+use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Stroke, Theme};
 use crate::pictures::output::page_width;
 
 /// The size of small text on paper, mm: 6.6 pt.
@@ -87,6 +88,22 @@ pub(crate) struct Key {
     pub width: f64,
 }
 
+impl Key {
+    pub fn new(rank: u8, words: impl Into<String>, symbol: Vec<Path>, width: f64) -> Rc<Key> {
+        Rc::new(Key { rank, words: words.into(), symbol, width })
+    }
+
+    /// The entry for a line, of which it shows a piece of this length, pixels.
+    pub fn line(rank: u8, words: impl Into<String>, length: f64, stroke: Stroke) -> Rc<Key> {
+        Key::new(rank, words, vec![Path::stroked(Key::piece(length), stroke)], length)
+    }
+
+    /// Returns the line from (0, 0) to the right.
+    pub fn piece(length: f64) -> Outline {
+        Outline::line([0.0, length].map(|x| PagePoint::new(x, 0.0)))
+    }
+}
+
 /// Shapes that belong together and have one meaning.
 #[derive(Clone, Debug)]
 pub(crate) struct Mark {
@@ -109,8 +126,8 @@ impl Mark {
         Mark { layer, class, title: String::new(), description: String::new(), shapes, key: None, avoid: None }
     }
 
-    pub fn titled(self, title: String) -> Mark {
-        Mark { title, ..self }
+    pub fn titled(self, title: impl Into<String>) -> Mark {
+        Mark { title: title.into(), ..self }
     }
 
     pub fn keyed(self, key: &Rc<Key>) -> Mark {
@@ -145,6 +162,12 @@ pub(crate) fn overlaps(a: PageRect, b: PageRect, by: f64) -> bool {
         && b.at.x - by < a.at.x + a.width
         && a.at.y < b.at.y + b.height + by
         && b.at.y - by < a.at.y + a.height
+}
+
+/// Returns the direction of a force on the page, where y points down, as a unit vector.
+pub(crate) fn direction(force: Vector) -> (f64, f64) {
+    let norm = force.norm();
+    (force.x / norm, -force.y / norm)
 }
 
 /// Returns the point `forward` pixels along the unit vector `u` from `p`, and `aside` pixels to the right of it on the
@@ -193,4 +216,40 @@ pub(crate) fn small_block(look: Look) -> (Outline, f64) {
 /// Returns the colour of the edges of displaced blocks.
 pub(crate) fn moved_edge(theme: &Theme) -> Colour {
     theme.motion.mixed(theme.ink, 0.25)
+}
+
+/// Blocks differ much in size if √(mean area) is more than this multiple of √area of the median block.
+const UNEVEN_RATIO: f64 = 3.0;
+
+/// Returns the unit length in metres: 0.6·√A, about the edge of a regular hexagon of area A. On a lattice, it is the
+/// side of a cell, unless 0.6·√A is at least 1.5 times this side. A is the median area of the blocks, or the mean area
+/// if its root is more than [`UNEVEN_RATIO`] times the root of the median area. In a picture zoomed to a block, A is
+/// the area of the smallest block in the zoomed view.
+pub(crate) fn unit(scene: &Scene, zoom: Option<BlockId>) -> f64 {
+    let near = zoom.map(|block| zoomed_view(scene, block));
+    let shown = |b: &&Block| near.is_none_or(|near| near.intersects(b.body.polygon.bounds()));
+    let mut sizes: Vec<f64> = scene.blocks.iter().filter(shown).map(|b| b.body.polygon.area().sqrt()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let squares: f64 = sizes.iter().map(|s| s * s).sum();
+    let mean = libm::sqrt(squares / sizes.len().max(1) as f64);
+    // A zoomed picture uses its smallest block, because small blocks must be visible next to large neighbours.
+    let middle = if zoom.is_some() { 0 } else { sizes.len() / 2 };
+    let middle = sizes.get(middle).copied().unwrap_or(1.0);
+    // If there are small blocks next to a very large block, arrows as long as a small block would be nearly invisible.
+    let uneven = zoom.is_none() && mean > UNEVEN_RATIO * middle;
+    let typical = 0.6 * if uneven { mean } else { middle };
+    match scene.lattice {
+        Some(lattice) if typical < 1.5 * lattice.side => lattice.side,
+        _ => typical,
+    }
+}
+
+/// Distance from a block to the edge of its zoomed view, as a fraction of the block's larger side.
+const ZOOM_PADDING: f64 = 0.5;
+
+/// Returns a box around a block, in metres: the bounding box of the block, enlarged on all sides by half of its longer
+/// side.
+pub(crate) fn zoomed_view(scene: &Scene, block: BlockId) -> Bounds {
+    let bounds = scene.blocks[block.0].body.polygon.bounds();
+    bounds.grown(ZOOM_PADDING * bounds.width().max(bounds.height()))
 }

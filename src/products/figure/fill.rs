@@ -7,11 +7,11 @@
 //! a force limit, every block shows its amplitude as a fraction of the largest amplitude.
 
 use super::option::Fill;
-use super::words::quantity;
 use crate::mechanics::analysis::{Analysis, FrameAnalysis};
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
 use crate::pictures::drawing::{Colour, PLASMA, Theme};
+use crate::products::wording::number::quantity;
 
 /// The quantity that colours show, and its value at the end of the colour scale.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,19 +13,16 @@ use std::rc::Rc;
 use path::ribbon;
 use strand::{Origin, Strand, StrandKind, strands};
 
-use super::about::About;
 use super::bearing::bearings;
 use super::canvas::Canvas;
-use super::description;
-use super::design::{Key, Layer, Look, Mark};
-use super::joint_forces;
-use super::panel::{Figure, View};
-use super::stage;
-use super::unit::unit;
-use super::words::{quantity, round_below_in};
+use super::design::{Key, Layer, Look, Mark, unit};
+use super::panel::{About, Figure, View};
+use super::{joint_forces, stage};
 use crate::mechanics::analysis::{FrameAnalysis, Verdict};
 use crate::mechanics::scene::BodyId;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use crate::products::wording::failure::{named, pair};
+use crate::products::wording::number::{quantity, round_below_in};
 
 /// The width of the band of the largest force in unit lengths, with its least and largest allowed width in mm.
 const LARGEST_BAND_WIDTH: (f64, f64, f64) = (0.5, 0.6, 3.7);
@@ -187,7 +184,7 @@ impl Bands {
         let wide = canvas.mm(KEY_LENGTH);
         let rect = PageRect { at: PagePoint::new(0.0, -width / 2.0), width: wide, height: width };
         let symbol = vec![self.filled(canvas, Outline::rounded(rect, 0.0), kind)];
-        Rc::new(Key { rank, words, symbol, width: wide })
+        Key::new(rank, words, symbol, wide)
     }
 }
 
@@ -198,7 +195,7 @@ fn title(canvas: &Canvas<'_>, strand: &Strand) -> String {
     let name = |origin| match origin {
         Origin::Contact(number) => {
             let [a, b] = found.contacts[number].interface.bodies;
-            description::named(scene, if a == on { b } else { a })
+            named(scene, if a == on { b } else { a })
         }
         Origin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
         Origin::Load => "a load".to_owned(),
@@ -219,13 +216,13 @@ fn dots(canvas: &mut Canvas<'_>) {
     };
     let of_key = canvas.mm(0.5);
     let symbol = dot(PagePoint::new(of_key, 0.0), of_key);
-    let words = "resultant of a joint".to_owned();
-    let key = Rc::new(Key { rank: 24, words, symbol, width: 2.0 * of_key });
+    let words = "resultant of a joint";
+    let key = Key::new(24, words, symbol, 2.0 * of_key);
     for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
         if bearing.is_none() {
             continue;
         }
-        let pair = description::pair(scene, contact.interface.bodies);
+        let pair = pair(scene, contact.interface.bodies);
         let amount = quantity(contact.resultant.force.norm(), scene.units.force());
         let shapes = dot(canvas.place(contact.resultant.at), radius);
         let mark = Mark::new(Layer::Force, "resultant", shapes).titled(format!("Between {pair}: {amount}"));

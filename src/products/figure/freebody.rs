@@ -20,21 +20,18 @@ use force::{Force, forces, largest};
 use surroundings::{Piece, clipped, corners, distinct, neighbours, view};
 use table::Table;
 
-use super::about::About;
 use super::arrow::round_above;
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Layer, Mark, around};
+use super::design::{ArrowSize, Layer, Mark, around, unit};
 use super::option::{Corners, Options};
-use super::panel::{Figure, Subject};
+use super::panel::{About, Figure, Subject};
 use super::placing::Label;
-use super::unit::unit;
 use super::verdict;
-use super::words::{letter, listed, quantity, round_below_in};
 use crate::mechanics::analysis::{Analysis, Contact};
 use crate::mechanics::scene::{BlockId, BodyId};
-use crate::pictures::drawing::hatch::{hatch, lines};
 use crate::pictures::drawing::symbol::{Accent, Symbol};
-use crate::pictures::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, text};
+use crate::pictures::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, hatch, text};
+use crate::products::wording::number::{letter, listed, quantity, round_below_in};
 
 /// Font size of the table, pixels.
 const LIST_SIZE: f64 = 15.0;
@@ -197,17 +194,12 @@ impl<'a> Body<'a> {
             let title = if is_ground { "Ground".to_owned() } else { format!("Block {name}") };
             let on_page = |ring: &Vec<_>| ring.iter().map(|p| canvas.place(*p)).collect();
             let rings: Vec<Vec<PagePoint>> = polygon.rings().iter().map(on_page).collect();
-            let mut edges = Outline::default();
-            for ring in &rings {
-                let next = ring.iter().cycle().skip(1);
-                for ends in ring.iter().zip(next).filter_map(|(a, b)| view.part_of([*a, *b])) {
-                    edges.extend(Outline::line(ends));
-                }
-            }
+            let sides = rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+            let edges = Outline::lines(sides.filter_map(|(a, b)| view.part_of([*a, *b])));
             let width = canvas.mm(if body == own { 0.34 } else { 0.24 });
             let edges = vec![Path::stroked(edges, Stroke::new(theme.ink, width))];
             if is_ground {
-                let hatching = lines(&hatch(&rings, view, canvas.mm(1.3)));
+                let hatching = Outline::lines(hatch(&rings, view, canvas.mm(1.3)));
                 let hatching = vec![Path::stroked(hatching, Stroke::new(theme.faint, canvas.mm(0.15)))];
                 canvas.put(Mark::new(Layer::Ground, "body", hatching).titled(title.clone()).avoided(0.0));
             } else {
@@ -292,7 +284,7 @@ impl<'a> Body<'a> {
         let origin = PagePoint::new(all.at.x - aside, all.at.y + all.height + canvas.mm(8.5));
         let size = ArrowSize { length: long, shaft: canvas.mm(0.26), head: (canvas.mm(1.1), canvas.mm(1.4)) };
         let shapes = [(1.0, 0.0), (0.0, -1.0)].map(|u| Path::filled(size.outline(origin, u), theme.ink)).to_vec();
-        let mark = Mark::new(Layer::Around, "axes", shapes).titled("Axes: x to the right, y up".into());
+        let mark = Mark::new(Layer::Around, "axes", shapes).titled("Axes: x to the right, y up");
         canvas.put(mark.avoided(canvas.mm(0.2)));
         let far = long + canvas.mm(2.0);
         for (name, at) in [("x", origin.moved(far, 0.0)), ("y", origin.moved(0.0, -far))] {

@@ -1,12 +1,11 @@
 //! [`gallery`]: reproduces the figures of the thesis from scenes that are part of this crate.
 
 use super::block_arrows::BlockArrows;
+use super::description::caption;
 use super::option::{Corners, Fill, ForceStyle, Normalisation, Options};
 use super::ring::ring;
 use super::shapes::shapes;
-use super::sheet;
-use super::words::caption;
-use super::{Kind, draw};
+use super::{Kind, draw, sheet};
 use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::{Drawing, Theme};

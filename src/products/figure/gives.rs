@@ -1,14 +1,12 @@
 //! Draws the joints that give way in a collapse: a ring at a hinge, and two half arrows at a joint that slides.
 
-use std::rc::Rc;
-
 use super::canvas::Canvas;
-use super::description::pair;
 use super::design::{Key, Layer, Mark, along};
 use super::fall::{Fall, Joint};
 use crate::geometry::Point;
 use crate::mechanics::analysis::Contact;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke};
+use crate::products::wording::failure::pair;
 
 /// The ranks of the two entries of the legend.
 const HINGE_RANK: u8 = 60;
@@ -61,10 +59,10 @@ pub(crate) fn draw(canvas: &mut Canvas<'_>, layer: Layer, joints: &[Gives<'_>], 
     let [hinge_words, slip_words] = words;
     let start = PagePoint::new(0.0, 0.0);
     let symbol = ring(canvas, start.moved(canvas.mm(0.95), 0.0));
-    let hinge_key = Rc::new(Key { rank: HINGE_RANK, words: hinge_words, symbol, width: canvas.mm(1.9) });
+    let hinge_key = Key::new(HINGE_RANK, hinge_words, symbol, canvas.mm(1.9));
     let reach = canvas.mm(SLIP_REACH);
     let symbol = half_arrows(canvas, start.moved(reach, 0.0), [(1.0, 0.0); 2], reach);
-    let slip_key = Rc::new(Key { rank: SLIP_RANK, words: slip_words, symbol, width: 2.0 * reach });
+    let slip_key = Key::new(SLIP_RANK, slip_words, symbol, 2.0 * reach);
     for Gives { contact, how } in joints {
         let interface = &contact.interface;
         // A point of a joint is drawn halfway between its positions on the two bodies.

@@ -4,25 +4,21 @@
 //! In an animation the vehicle drives over the structure: progress below 1 of the motion shows one of the positions, and
 //! progress 1 the governing one.
 
-use std::rc::Rc;
-
-use super::about::About;
 use super::canvas::Canvas;
 use super::design::{ArrowSize, Key, Layer, Mark};
 use super::fall::Fall;
-use super::gives;
 use super::margin::ghosts;
 use super::option::Options;
-use super::panel::Figure;
+use super::panel::{About, Figure};
 use super::placing::Label;
-use super::sheet;
 use super::stage::{self, hollow, load_size};
-use super::verdict;
+use super::{gives, sheet};
 use crate::geometry::quarter_turn;
 use crate::mechanics::analysis::{Analysis, Influence, VehiclePosition, Verdict};
 use crate::pictures::drawing::{Drawing, Outline, PagePoint, Path, Stroke};
 use crate::products::wording::number::{quantity, three_down};
-use crate::products::wording::vehicle::{factor, position};
+use crate::products::wording::question::{vehicle_factor, vehicle_position};
+use crate::products::wording::verdict;
 
 /// The height of the influence line, and its distance from the vehicle, mm.
 const HEIGHT: f64 = 13.0;
@@ -53,11 +49,13 @@ impl Figure for InfluenceLine {
         let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         match (&found.vehicle, found.verdict) {
             (Some(influence), _) => {
-                let Some(own) = shown(influence, options.motion_progress) else { return vec![factor(influence)] };
+                let Some(own) = shown(influence, options.motion_progress) else {
+                    return vec![vehicle_factor(influence)];
+                };
                 let falls = own.factor.is_some_and(|factor| factor < 1.0);
                 let only = if falls { "only without the vehicle: it " } else { "" };
                 let times = own.factor.map_or("any multiple of".to_owned(), |factor| three_down(factor) + " times");
-                vec![format!("{only}carries {times} the vehicle, {}", position(scene, own))]
+                vec![format!("{only}carries {times} the vehicle, {}", vehicle_position(scene, own))]
             }
             (None, Verdict::Stable) => vec!["no position of a vehicle was analysed".into()],
             (None, Verdict::Unstable) => vec!["it falls without the vehicle".into()],
@@ -103,7 +101,7 @@ fn vehicle(canvas: &mut Canvas<'_>, position: Option<&VehiclePosition>) {
     let start = PagePoint::new(0.0, 0.0);
     let sample = ArrowSize { length: canvas.mm(5.0), ..load_size(canvas) };
     let symbol = vec![hollow(canvas, sample.outline(start, (1.0, 0.0)), ink)];
-    let key = Rc::new(Key { rank: 13, words: "axles of the vehicle".into(), symbol, width: canvas.mm(5.5) });
+    let key = Key::new(13, "axles of the vehicle", symbol, canvas.mm(5.5));
     for (number, _, at) in &position.axles {
         let weight = vehicle.axles[*number].weight;
         let length = canvas.mm(AXLE) * weight / heaviest.max(f64::MIN_POSITIVE);
@@ -149,7 +147,6 @@ fn line(canvas: &mut Canvas<'_>, influence: &Influence, position: Option<&Vehicl
         let middle = PagePoint::new(left - canvas.mm(1.5), y(factor));
         canvas.label(Label { fixed: Some(middle), ..Label::new(three_down(factor), theme.faint, vec![middle], 1) });
     }
-    let start = PagePoint::new(0.0, 0.0);
     let long = canvas.mm(4.8);
     let cut = format!("load factor over the first axle, cut off at {}", three_down(top));
     for (to_right, words) in [(true, cut), (false, "the same, travelling to the left".to_owned())] {
@@ -162,8 +159,7 @@ fn line(canvas: &mut Canvas<'_>, influence: &Influence, position: Option<&Vehicl
         if !to_right {
             stroke = stroke.dashed([canvas.mm(1.0), canvas.mm(0.7)]);
         }
-        let symbol = vec![Path::stroked(Outline::line([start, start.moved(long, 0.0)]), stroke.clone())];
-        let key = Rc::new(Key { rank: if to_right { 14 } else { 15 }, words, symbol, width: long });
+        let key = Key::line(if to_right { 14 } else { 15 }, words, long, stroke.clone());
         let path = Path::stroked(Outline::line(own.iter().map(|own| point(own))), stroke);
         canvas.put(Mark::new(Layer::Symbol, "influence", vec![path]).keyed(&key).avoided(canvas.mm(0.2)));
     }

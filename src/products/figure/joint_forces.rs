@@ -5,23 +5,22 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::about::About;
 use super::arrow::round_above;
 use super::canvas::Canvas;
-use super::description::pair;
-use super::design::{ArrowSize, Key, Layer, Look, Mark, along};
+use super::design::{ArrowSize, Key, Layer, Look, Mark, along, direction};
 use super::gives::{self, Gives, How};
 use super::option::{Fill, ForceStyle, Normalisation, Options};
-use super::panel::{Figure, View};
+use super::panel::{About, Figure, View};
 use super::placing::Label;
 use super::stage;
-use super::words::{force, quantity, round_below_in};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis, Motion};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::pictures::drawing::difference::lightness;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
+use crate::products::wording::failure::pair;
 use crate::products::wording::margin::{Governing, governing};
+use crate::products::wording::number::{force, quantity, round_below_in};
 
 /// A force below this share of the largest is numerical noise and has no mark.
 const NOISE: f64 = 1e-6;
@@ -272,7 +271,7 @@ fn force_key(canvas: &Canvas<'_>, most: f64) -> Rc<Key> {
         (true, true) => "at a joint; one head at ground",
         (false, _) => "at a joint",
     };
-    Rc::new(Key { rank: 20, words: format!("{} {what}", quantity(round, units)), symbol, width })
+    Key::new(20, format!("{} {what}", quantity(round, units)), symbol, width)
 }
 
 /// Returns the entry for ticks: the largest force that is drawn as a tick, rounded up to one digit.
@@ -280,7 +279,7 @@ fn tick_key(canvas: &Canvas<'_>, most: f64, newtons: f64) -> Rc<Key> {
     let (symbol, width) = key_mark(canvas, 0.0, 0.5 * newtons / most.max(f64::MIN_POSITIVE), true);
     let units = canvas.scene().units.force();
     let words = format!("up to {}", quantity(units.size * round_above(units.value_from_si(newtons)), units));
-    Rc::new(Key { rank: 10, words, symbol, width })
+    Key::new(10, words, symbol, width)
 }
 
 /// Draws the weights of the blocks of a large picture as thin arrows from their centroids. Returns false if they would be
@@ -293,7 +292,7 @@ fn weights(canvas: &mut Canvas<'_>) -> bool {
     if canvas.scale * heaviest < canvas.mm(1.6) || pull.norm() <= 0.0 {
         return false;
     }
-    let down = (pull.x / pull.norm(), -pull.y / pull.norm());
+    let down = direction(pull);
     let arrow = |canvas: &Canvas<'_>, at: PagePoint, u: (f64, f64), length: f64| {
         let head = (canvas.mm(1.15), canvas.mm(1.5).min(0.6 * length));
         let shaft = ArrowSize { length, shaft: canvas.mm(0.32), head }.outline(at, u);
@@ -304,7 +303,7 @@ fn weights(canvas: &mut Canvas<'_>) -> bool {
         ]
     };
     let symbol = arrow(canvas, PagePoint::new(canvas.mm(0.7), 0.0), (1.0, 0.0), canvas.mm(4.0));
-    let key = Rc::new(Key { rank: 30, words: "weight".to_owned(), symbol, width: canvas.mm(4.7) });
+    let key = Key::new(30, "weight", symbol, canvas.mm(4.7));
     for block in placed.filter(|block| block.weight > 0.0) {
         let length = (canvas.scale * block.weight).max(canvas.mm(1.3));
         let shapes = arrow(canvas, canvas.place(block.centroid), down, length);
@@ -339,7 +338,7 @@ pub(crate) fn missing(canvas: &mut Canvas<'_>) {
     let words =
         if states_scale { format!("{} missing", quantity(stated, scene.units.force())) } else { "missing".into() };
     let symbol = Path::filled(arrow(width).outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink);
-    let key = Rc::new(Key { rank: 50, words, symbol: vec![symbol], width });
+    let key = Key::new(50, words, vec![symbol], width);
     let mut order: Vec<&Failure> = found.failures.iter().collect();
     order.sort_by(|a, b| b.amount().total_cmp(&a.amount()));
     for (number, failure) in order.into_iter().enumerate() {
@@ -352,7 +351,7 @@ pub(crate) fn missing(canvas: &mut Canvas<'_>) {
             let anchors = [(0.0, -3.0), (3.0, 0.0), (-3.0, 0.0)].map(|(x, y)| at.moved(look.mm(x), look.mm(y)));
             (stage::turning(torque, amount.clone()), shapes, anchors.to_vec(), amount)
         } else if norm > 0.0 {
-            let u = (missing.x / norm, -missing.y / norm);
+            let u = direction(missing);
             let length = (scale * norm).clamp(look.mm(2.0), look.mm(10.0));
             let size = arrow(length);
             let shapes = match failure {

@@ -3,21 +3,19 @@
 
 use std::rc::Rc;
 
-use super::about::About;
 use super::bearing::{Bearing, bearings};
 use super::canvas::Canvas;
-use super::description;
-use super::design::{Key, Layer, Mark};
+use super::design::{Key, Layer, Mark, unit};
 use super::option::Options;
-use super::panel::Figure;
-use super::stage;
-use super::unit::unit;
-use super::verdict;
-use super::words::{FULL_UTILISATION, percent, quantity};
+use super::panel::{About, Figure};
+use super::{stage, verdict};
 use crate::geometry::Point;
 use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
+use crate::products::wording::failure::pair;
 use crate::products::wording::margin::Parameter;
+use crate::products::wording::number::{FULL_UTILISATION, percent, quantity};
+use crate::products::wording::verdict::reason;
 
 /// A resultant lies outside the safe part if its distance from the middle, divided by half the length of this part,
 /// exceeds this value.
@@ -49,7 +47,7 @@ impl Figure for Kernel {
         let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         match found.verdict {
             Verdict::Unstable => vec!["no resultants, because no forces balance the structure".into()],
-            Verdict::Undecided => vec![format!("no resultants; {}", verdict::reason(scene, found))],
+            Verdict::Undecided => vec![format!("no resultants; {}", reason(scene, found))],
             Verdict::Stable if scene.kernel >= 1.0 => vec!["every safe part is a point".into()],
             Verdict::Stable => verdict::margin(scene, found, Parameter::Kernel).into_iter().collect(),
         }
@@ -80,11 +78,7 @@ fn rest_stroke(theme: &Theme, bold: f64) -> Stroke {
 /// Draws the safe part of each interface as a solid line, and the unsafe parts as dashed lines.
 fn safe_parts(canvas: &mut Canvas<'_>) {
     let (scene, theme, bold) = (canvas.scene(), canvas.theme(), bold(canvas));
-    let (long, start) = (canvas.mm(KEY_LENGTH), PagePoint::new(0.0, 0.0));
-    let key = |rank: u8, words: String, stroke: Stroke| {
-        let symbol = vec![Path::stroked(Outline::line([start, start.moved(long, 0.0)]), stroke)];
-        Rc::new(Key { rank, words, symbol, width: long })
-    };
+    let key = |rank: u8, words: String, stroke: Stroke| Key::line(rank, words, canvas.mm(KEY_LENGTH), stroke);
     let safe = Stroke::new(theme.safe, bold).mitred();
     let safe_key = key(10, "safe part of an interface".into(), safe.clone());
     let rest = rest_stroke(theme, bold);
@@ -96,16 +90,13 @@ fn safe_parts(canvas: &mut Canvas<'_>) {
         let units = scene.units.length();
         let title = format!(
             "Between {}: {} of {} safe",
-            description::pair(scene, contact.interface.bodies),
+            pair(scene, contact.interface.bodies),
             quantity((1.0 - scene.kernel) * length, units),
             quantity(length, units)
         );
         let mut shapes = Vec::new();
         if scene.kernel > 0.0 {
-            let mut rests = Outline::default();
-            for (end, point) in ends.into_iter().zip(points) {
-                rests.extend(Outline::line([end, point]));
-            }
+            let rests = Outline::lines([0, 1].map(|k| [ends[k], points[k]]));
             let casing = Stroke::new(theme.page, 0.45 * bold + canvas.mm(0.3));
             shapes.push(Path::stroked(rests.clone(), casing).with_opacity(0.8));
             shapes.push(Path::stroked(rests, rest.clone()));
@@ -148,14 +139,14 @@ fn resultants(canvas: &mut Canvas<'_>) {
         let sample = Bearing { pressed: 1.0, eccentricity: Some(eccentricity), friction: None };
         let (outline, ink) = shape(PagePoint::new(1.35 * radius, 0.0), &sample);
         let (words, symbol) = (words.to_owned(), vec![Path::filled(outline, ink)]);
-        Rc::new(Key { rank, words, symbol, width: 2.7 * radius })
+        Key::new(rank, words, symbol, 2.7 * radius)
     };
     let within_key = key(20, "resultant", 0.0);
     let end_key = key(21, "resultant at an end of the safe part", 1.0);
     for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
         let Some(bearing) = bearing else { continue };
         let (outline, ink) = shape(canvas.place(contact.resultant.at), &bearing);
-        let pair = description::pair(scene, contact.interface.bodies);
+        let pair = pair(scene, contact.interface.bodies);
         let amount = quantity(contact.resultant.force.norm(), scene.units.force());
         let place = bearing.eccentricity.map_or(String::new(), |share| {
             format!(", {} of the way from the middle to the end of the safe part", percent(share))

@@ -1,6 +1,5 @@
 //! [`Kind`]: lists the kinds of figures. Each kind is implemented by a type in a separate file.
 
-use super::about::About;
 use super::block_arrows::BlockArrows;
 use super::capacity::CarriedForces;
 use super::compare::Comparison;
@@ -13,7 +12,7 @@ use super::margin::CollapseMargin;
 use super::mechanism::Mechanism;
 use super::movement::MovedSupport;
 use super::option::{ArrowScale, Options};
-use super::panel::Figure;
+use super::panel::{About, Figure};
 use super::placement::PlacementTolerance;
 use super::polygon::ForcePolygon;
 use super::removable::RemovableBlocks;
@@ -28,6 +27,7 @@ use crate::mechanics::analysis::{self, Analysis, MarginKinds};
 use crate::mechanics::analysis::{CapacityRequest, MarginKind, Sensitivity};
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::style::ForceMarks;
+use crate::text::Word;
 
 /// The largest number of placed blocks of all frames for which all margins are cheap, and for which the factor on the
 /// loads and the tilt are. The numbers count blocks, not seconds, so the same scene has the same figure on every
@@ -280,5 +280,19 @@ impl Kind {
         }
         options.verdicts &= !self.about().hides_verdicts;
         options
+    }
+}
+
+impl Word for Kind {
+    fn all() -> Vec<Kind> {
+        Kind::ALL.to_vec()
+    }
+
+    fn word(self) -> &'static str {
+        self.name()
+    }
+
+    fn help(self) -> &'static str {
+        self.about().help
     }
 }

@@ -6,19 +6,14 @@
 //! upper end. Hinges and slips are those of this collapse. If gravity is turned or a horizontal load is added, arrows
 //! show the values at both ends. Loads are drawn with their present magnitudes.
 
-use std::rc::Rc;
-
-use super::about::About;
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, around, moved_edge, small_block};
+use super::design::{ArrowSize, Key, Layer, Mark, around, direction, moved_edge, small_block, unit};
 use super::displacement::Course;
 use super::fall::Fall;
-use super::gives;
 use super::option::Options;
-use super::panel::Figure;
+use super::panel::{About, Figure};
 use super::placing::Label;
-use super::stage;
-use super::unit::unit;
+use super::{gives, stage};
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
 use crate::mechanics::analysis::{Analysis, End, Toward, Verdict};
 use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, Path, Stroke, text};
@@ -97,9 +92,9 @@ pub(super) fn ghosts(canvas: &mut Canvas<'_>, fall: &Fall<'_>) {
     }
     let (swatch, width) = small_block(canvas.look);
     let symbol = vec![Path::stroked(swatch, edge.clone())];
-    let key = Rc::new(Key { rank: 10, words: "how it begins to fall".into(), symbol, width });
+    let key = Key::new(10, "how it begins to fall", symbol, width);
     let mark = Mark::new(Layer::Force, "ghosts", vec![Path::stroked(outline, edge)]).keyed(&key);
-    canvas.put(mark.titled("How it would begin to fall".into()).avoided(canvas.mm(0.1)));
+    canvas.put(mark.titled("How it would begin to fall").avoided(canvas.mm(0.1)));
 }
 
 /// Draws the arrows to the left of the structure: a dashed line in the present direction of gravity, and the turned
@@ -138,7 +133,7 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
     let from = PagePoint::new(left + (wide - own.width) / 2.0 - own.at.x, canvas.structure.at.y - own.at.y);
     let mut below = PagePoint::new(left + wide / 2.0, from.y + own.at.y + own.height + canvas.mm(1.0) + 0.5 * size);
     let shape = |canvas: &Canvas<'_>, from: PagePoint, v: Vector, scale: f64, ink: Colour| {
-        let (long, u) = (scale * v.norm(), (v.x / v.norm(), -v.y / v.norm()));
+        let (long, u) = (scale * v.norm(), direction(v));
         let head = (canvas.mm(1.5), canvas.mm(1.6).min(0.6 * long));
         Path::filled(ArrowSize { length: long, shaft: canvas.mm(0.42), head }.outline(from, u), ink)
     };
@@ -152,7 +147,7 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
         now(canvas, symbol_from, symbol_from.moved(long, 0.0)),
         shape(canvas, right, Vector::new(1.0, 0.0), long, theme.ink),
     ];
-    let key = Rc::new(Key { rank: 12, words: meaning.into(), symbol, width: long });
+    let key = Key::new(12, meaning, symbol, long);
     let mut shapes = vec![now(canvas, from, tip(from, down))];
     for (value, ink) in values.iter().rev() {
         if arrow(*value).norm() * scale > canvas.mm(0.3) {

@@ -9,25 +9,19 @@
 //! `kernel`), a block turns about an end of this safe part. Its corner is then drawn inside the neighbouring block.
 
 use std::collections::BTreeMap;
-use std::rc::Rc;
 
-use super::about::About;
 use super::canvas::Canvas;
-use super::collapse;
-use super::description;
-use super::design::{Key, Layer, Mark, moved_edge, small_block};
+use super::design::{Key, Layer, Mark, moved_edge, small_block, unit};
 use super::displacement::Course;
 use super::fall::{Fall, Joint};
-use super::gives;
 use super::option::Options;
-use super::panel::Figure;
-use super::stage;
-use super::unit::unit;
-use super::words::quantity;
+use super::panel::{About, Figure};
+use super::{collapse, description, gives, stage};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, MarginKind, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId};
 use crate::pictures::drawing::{Outline, Path, Stroke};
 use crate::products::wording::margin::governing;
+use crate::products::wording::number::quantity;
 
 /// Opacity of the fill of a displaced block.
 const OPACITY: f64 = 0.38;
@@ -105,14 +99,14 @@ pub(super) fn ghosts(canvas: &mut Canvas<'_>) {
     let stroke = present_edge(canvas);
     let (swatch, width) = small_block(canvas.look);
     let symbol = vec![Path::stroked(swatch, stroke.clone())];
-    let key = Rc::new(Key { rank: 10, words: "blocks now".into(), symbol, width });
+    let key = Key::new(10, "blocks now", symbol, width);
     let mut outline = Outline::default();
     for id in canvas.frame().placed.iter().filter(|id| canvas.displacement(**id).is_some()) {
         outline.extend(canvas.camera.polygon(&scene.blocks[id.0].body.polygon));
     }
     if !outline.segments.is_empty() {
         let mark = Mark::new(Layer::Stone, "ghosts", vec![Path::stroked(outline, stroke)]).keyed(&key);
-        canvas.put(mark.titled("Where the blocks that move stand now".into()));
+        canvas.put(mark.titled("Where the blocks that move stand now"));
     }
 }
 
@@ -150,7 +144,7 @@ pub(super) fn displaced_blocks<T>(
         vec![fill, Path::stroked(outline, edge.clone())]
     };
     let (swatch, width) = small_block(canvas.look);
-    let key = Rc::new(Key { rank: 11, words: words.to_owned(), symbol: drawn(swatch), width });
+    let key = Key::new(11, words, drawn(swatch), width);
     for (id, item) in blocks {
         if canvas.displacement(id).is_none() {
             continue;

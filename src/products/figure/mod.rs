@@ -4,7 +4,6 @@
 //! [`Drawing`](crate::pictures::drawing::Drawing). No verdict depends on computations in this folder. The [`Kind`] of a figure
 //! determines its content; each kind is in a separate file.
 
-mod about;
 mod arrow;
 mod bearing;
 mod block_arrows;
@@ -50,16 +49,15 @@ mod stage;
 mod symmetric;
 mod structure;
 mod thrust;
-mod unit;
 mod utilisation;
 mod verdict;
-mod words;
 
 pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind, arrows, marks};
 pub use broken::broken;
 pub use cad::dxf;
 #[cfg(feature = "report")]
 pub(crate) use change::{ForceChange, count_in_words, noise, shared_forces};
+pub use description::caption;
 pub use draw::{draw, film, forces, least_size, panels, panels_of, split};
 #[cfg(feature = "report")]
 pub(crate) use fall::{Fall, Joint};
@@ -72,6 +70,5 @@ pub use option::{ArrowScale, Corners, Fill, ForceStyle, Normalisation, Options};
 pub(crate) use option::{free_block, named_block};
 pub use ring::ring;
 pub use shapes::shapes;
-#[cfg(feature = "report")]
-pub(crate) use words::letter;
-pub use words::{caption, quantity};
+
+pub use crate::products::wording::number::quantity;

@@ -4,25 +4,23 @@
 //! The picture is made like that of a mechanism, in which the support is one more block that moves. The words state the
 //! movement for which it is drawn.
 
-use super::about::About;
 use super::canvas::Canvas;
-use super::description::pair;
-use super::design::{Layer, Mark};
+use super::design::{Layer, Mark, unit};
 use super::displacement::Course;
 use super::fall::Fall;
 use super::gives::{self, Gives, How};
 use super::mechanism::{displaced_blocks, ghosts, present_edge};
 use super::option::Options;
-use super::panel::Figure;
+use super::panel::{About, Figure};
 use super::placing::Label;
 use super::stage;
-use super::unit::unit;
-use super::verdict;
 use crate::mechanics::analysis::{Analysis, Crack, Cracked, Motion, MovementOutcome, SupportMovement, Verdict};
 use crate::mechanics::scene::{Block, BlockId, BodyId, Movement, Scene};
 use crate::pictures::drawing::{Outline, Path, Stroke};
-use crate::products::wording::movement::{force, movement, per_unit, without_state};
+use crate::products::wording::failure::pair;
 use crate::products::wording::number::{quantity, round_below_in, three};
+use crate::products::wording::question::{movement, movement_force, per_unit, without_state};
+use crate::products::wording::verdict;
 
 /// The largest number of joints that state how far they open or slide.
 const MAX_AMOUNTS: usize = 12;
@@ -47,7 +45,7 @@ impl Figure for MovedSupport {
             (Some(moved), _) => {
                 let pushes = match &moved.outcome {
                     MovementOutcome::Follows(cracked) => {
-                        format!("the structure pushes it with {}", force(scene, cracked))
+                        format!("the structure pushes it with {}", movement_force(scene, cracked))
                     }
                     other => without_state(other).to_owned(),
                 };
@@ -133,10 +131,8 @@ fn displaced(canvas: &mut Canvas<'_>, movement: &Movement) {
     displaced_blocks(canvas, blocks, "how they follow, enlarged", |name, mark| mark.titled(name.clone()));
     // Where the support touches the structure now.
     let contacts = canvas.found().contacts.iter().map(|contact| &contact.interface);
-    let mut outline = Outline::default();
-    for interface in contacts.filter(|interface| interface.bodies.contains(&BodyId::Ground(movement.ground))) {
-        outline.extend(Outline::line(interface.ends.map(|end| canvas.place(end))));
-    }
+    let touching = contacts.filter(|interface| interface.bodies.contains(&BodyId::Ground(movement.ground)));
+    let outline = Outline::lines(touching.map(|interface| interface.ends.map(|end| canvas.place(end))));
     canvas.put(Mark::new(Layer::Stone, "ghosts", vec![Path::stroked(outline, present_edge(canvas))]));
 }
 

@@ -7,9 +7,10 @@ use super::design::{Key, Look};
 use super::option::Options;
 use super::panel::Figure;
 use super::verdict;
-use super::words::{counted, quantity};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis};
 use crate::pictures::drawing::{Anchor, Colour, Drawing, Face, Group, Item, PagePoint, Text, text};
+use crate::products::wording::number::{counted, quantity};
+use crate::products::wording::verdict::reason;
 
 /// The margin of the page, mm.
 pub(crate) const MARGIN: f64 = 1.0;
@@ -124,8 +125,8 @@ impl Arrangement<'_> {
         let weight = quantity(found.weight, scene.units.force());
         let mut parts = vec![format!("{blocks}, {weight} in all")];
         if self.options.verdicts {
-            parts[0] = format!("{}, {}", parts[0], verdict::word(found.verdict));
-            parts.push(verdict::reason(scene, found));
+            parts[0] = format!("{}, {}", parts[0], found.verdict.plain());
+            parts.push(reason(scene, found));
             parts.extend(self.words(one));
             parts.extend(found.notices.iter().cloned());
         }
@@ -186,7 +187,7 @@ impl Page<'_> {
             let centre = left + panel / 2.0 + column as f64 * (panel + self.mm(GAP));
             let (found, caption) = (one.found(), &one.caption);
             let mut group = Group { id: Some(format!("frame-{}", one.number)), ..Group::with_class("frame") };
-            let word = if self.sheet.options.verdicts { verdict::word(found.verdict) } else { "no verdict is shown" };
+            let word = if self.sheet.options.verdicts { found.verdict.plain() } else { "no verdict is shown" };
             group.title = if caption.is_empty() { word.to_owned() } else { format!("{caption}: {word}") };
             group = group.with(Item::from(one.picture.group.clone()).moved(centre - middle, start - top));
             let (lines, mut below) = self.lines(one, PagePoint::new(centre, start + bottom - top), panel);

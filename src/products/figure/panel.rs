@@ -1,19 +1,17 @@
 //! What the panels of a figure show: [`Figure`], which every kind of figure implements, and the part of the scene that
 //! is shown.
 
-use super::about::About;
 use super::canvas::Canvas;
-use super::design::Look;
+use super::design::{Look, zoomed_view};
 use super::option::Options;
-use super::stage;
-use super::unit::zoomed_view;
-use super::verdict;
-use super::words::letter;
+use super::{stage, verdict};
 use crate::geometry::{Bounds, Point};
 use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
 use crate::pictures::drawing::Group;
 use crate::products::wording::margin::governing;
-use crate::products::wording::placement;
+use crate::products::wording::number::letter;
+use crate::products::wording::question;
+use crate::products::wording::verdict::reason;
 
 /// Largest size of a typical block in a picture, mm.
 const LARGEST_BLOCK: f64 = 16.0;
@@ -148,10 +146,43 @@ pub(crate) fn margin_words(analysis: &Analysis, frame: usize, options: &Options)
         Vec::new()
     };
     // The placement tolerance is computed only if it was asked for; in a strip it shows which step is delicate.
-    margin.extend(found.placement.as_ref().map(|placement| placement::proved(scene, placement)));
+    margin.extend(found.placement.as_ref().map(|placement| question::placement_proved(scene, placement)));
     if margin.is_empty() && unexplained {
-        let reason = verdict::reason(scene, found);
+        let reason = reason(scene, found);
         return if reason.is_empty() { Vec::new() } else { vec![reason] };
     }
     margin
+}
+
+/// The name of a kind of figure, and its requirements. Every kind has a name, a help text and a title.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct About {
+    /// The name on the command line and in settings, in lower case.
+    pub name: &'static str,
+    /// One line for the help of `drystone render --kind`.
+    pub help: &'static str,
+    /// The title of the figure if the scene has none.
+    pub title: &'static str,
+    /// Whether the analysis has to compute the margins.
+    pub needs_margins: bool,
+    /// Whether the analysis has to compute the forces that a block can carry.
+    pub needs_capacity: bool,
+    /// Whether the analysis has to compute how accurately the blocks must be placed.
+    pub needs_placement: bool,
+    /// Whether the analysis has to find out which blocks may leave.
+    pub needs_removable: bool,
+    /// Whether the analysis has to compute how a margin changes with corners, weights, friction and loads.
+    pub needs_sensitivity: bool,
+    /// Whether each falling part is shown with one elementary mechanism
+    /// ([`Analysis::elementary`](crate::mechanics::analysis::Analysis::elementary)), and an animation shows several steps of its
+    /// motion.
+    pub needs_elementary_mechanisms: bool,
+    /// Whether the arrows of all panels have one scale, independent of the options.
+    pub shares_arrow_scale: bool,
+    /// Whether the figure shows no verdicts, independent of the options.
+    pub hides_verdicts: bool,
+    /// Whether the line of the verdict states another margin than the headline margin.
+    pub states_own_margin: bool,
+    /// Whether the figure shows only the block that the options name, in one frame.
+    pub shows_one_block: bool,
 }

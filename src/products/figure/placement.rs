@@ -1,22 +1,19 @@
 //! Draws how accurately the blocks must be placed: for each block a whisker as long as its own error may be while all
 //! others are in place, and behind the blocks the pattern of errors with which the structure falls, enlarged.
 
-use std::rc::Rc;
-
-use super::about::About;
 use super::canvas::Canvas;
 use super::design::{Key, Layer, Mark};
 use super::option::Options;
-use super::panel::Figure;
+use super::panel::{About, Figure};
 use super::placing::Label;
 use super::stage;
-use super::verdict;
 use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::analysis::{Analysis, Placement, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Outline, PagePoint, Path, Stroke};
 use crate::products::wording::number::{digits, round_below, three_down, three_up};
-use crate::products::wording::placement::{length, proved};
+use crate::products::wording::question::{placement_length, placement_proved};
+use crate::products::wording::verdict;
 
 /// The length of the largest error of the pattern in the picture, mm.
 const SHOWN_ERROR: f64 = 3.0;
@@ -72,12 +69,12 @@ impl Figure for PlacementTolerance {
 
 /// Returns the words after the verdict.
 fn sentences(scene: &Scene, placement: &Placement) -> Vec<String> {
-    let stands = length(scene, placement.proved, three_down);
-    let falls = placement.falls_at.map(|at| match length(scene, at, three_up) {
+    let stands = placement_length(scene, placement.proved, three_down);
+    let falls = placement.falls_at.map(|at| match placement_length(scene, at, three_up) {
         at if at == stands => "the grey pattern falls just beyond".to_owned(),
         at => format!("the grey pattern falls at {at}"),
     });
-    [Some(proved(scene, placement)), falls].into_iter().flatten().collect()
+    [Some(placement_proved(scene, placement)), falls].into_iter().flatten().collect()
 }
 
 /// Draws the outlines of the blocks with the errors of the pattern, enlarged by a round number.
@@ -90,18 +87,17 @@ fn pattern(canvas: &mut Canvas<'_>, placement: &Placement) {
     let factor = round_below(canvas.mm(SHOWN_ERROR) / canvas.camera.length(largest)).max(1.0);
     let stroke =
         Stroke::new(theme.faint.mixed(theme.page, 0.65), canvas.mm(0.2)).dashed([canvas.mm(0.9), canvas.mm(0.6)]);
-    let (start, long) = (PagePoint::new(0.0, 0.0), canvas.mm(KEY_LENGTH));
     let words = match factor {
         1.0 => "centres off with which it falls; joint ends are off too".to_owned(),
         factor => format!("centres off with which it falls, × {}; joint ends are off too", digits(factor)),
     };
-    let symbol = vec![Path::stroked(Outline::line([start, start.moved(long, 0.0)]), stroke.clone())];
-    let key = Rc::new(Key { rank: 20, words, symbol, width: long });
+    let key = Key::line(20, words, canvas.mm(KEY_LENGTH), stroke.clone());
     for error in &placement.pattern {
         let block = &canvas.scene().blocks[error.block.0];
         let corners = block.body.polygon.outline().iter().map(|corner| canvas.place(corner + error.offset * factor));
         let path = Path::stroked(Outline::ring(corners), stroke.clone());
-        let title = format!("Block {}: off by {}", block.id, length(canvas.scene(), error.offset.norm(), three_up));
+        let title =
+            format!("Block {}: off by {}", block.id, placement_length(canvas.scene(), error.offset.norm(), three_up));
         canvas.put(Mark::new(Layer::Stone, "error", vec![path]).titled(title).keyed(&key));
     }
 }
@@ -113,13 +109,11 @@ fn whiskers(canvas: &mut Canvas<'_>, placement: &Placement) {
     let gravity = canvas.scene().gravity;
     let side = quarter_turn(gravity).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0));
     let stroke = Stroke::new(theme.ink, canvas.mm(WIDTH)).mitred();
-    let (start, long, tick) = (PagePoint::new(0.0, canvas.mm(0.0)), canvas.mm(KEY_LENGTH), canvas.mm(TICK));
-    let mut sample = Outline::line([start, start.moved(long, 0.0)]);
-    for x in [0.0, long] {
-        sample.extend(Outline::line([start.moved(x, -tick), start.moved(x, tick)]));
-    }
-    let words = "how far one block alone may be off".to_owned();
-    let key = Rc::new(Key { rank: 10, words, symbol: vec![Path::stroked(sample, stroke.clone())], width: long });
+    let (long, tick) = (canvas.mm(KEY_LENGTH), canvas.mm(TICK));
+    let mut sample = Key::piece(long);
+    sample.extend(Outline::lines([0.0, long].map(|x| [-tick, tick].map(|y| PagePoint::new(x, y)))));
+    let words = "how far one block alone may be off";
+    let key = Key::new(10, words, vec![Path::stroked(sample, stroke.clone())], long);
     let is_small = placement.blocks.len() <= MAX_AMOUNTS;
     let mut stated = 0;
     let least = placement.blocks.iter().map(|own| own.proved).fold(f64::INFINITY, f64::min);
@@ -127,11 +121,9 @@ fn whiskers(canvas: &mut Canvas<'_>, placement: &Placement) {
         let block = &canvas.scene().blocks[own.block.0];
         let ends = [-1.0, 1.0].map(|sign| canvas.place(block.centroid + side * (sign * own.proved)));
         let mut whisker = Outline::line(ends);
-        for end in ends {
-            let (x, y) = (side.y * tick, side.x * tick);
-            whisker.extend(Outline::line([end.moved(-x, -y), end.moved(x, y)]));
-        }
-        let amount = length(canvas.scene(), own.proved, three_down);
+        let (x, y) = (side.y * tick, side.x * tick);
+        whisker.extend(Outline::lines(ends.map(|end| [end.moved(-x, -y), end.moved(x, y)])));
+        let amount = placement_length(canvas.scene(), own.proved, three_down);
         let casing = Stroke::new(theme.page, canvas.mm(WIDTH + 0.3));
         let shapes =
             vec![Path::stroked(whisker.clone(), casing).with_opacity(0.7), Path::stroked(whisker, stroke.clone())];

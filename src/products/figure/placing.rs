@@ -161,7 +161,7 @@ impl Surroundings {
     /// Returns the length of the edges of stones in a rectangle, pixels.
     fn edge_length(&self, rect: PageRect) -> f64 {
         let edges = self.edges.intersecting(bounds(&corners(rect)));
-        let lengths = edges.filter_map(|edge| rect.part_of(*edge)).map(|[a, b]| libm::hypot(b.x - a.x, b.y - a.y));
+        let lengths = edges.filter_map(|edge| rect.part_of(*edge)).map(|[a, b]| b.distance(a));
         // The index gives no order: add the lengths in an order that does not depend on it.
         let mut lengths: Vec<f64> = lengths.collect();
         lengths.sort_by(f64::total_cmp);
@@ -239,7 +239,7 @@ impl PlacedLabels {
         let mut group = Group::with_class(class);
         if let Some(anchor) = position.leader {
             let from = nearest(rect, anchor);
-            let long = libm::hypot(anchor.x - from.x, anchor.y - from.y);
+            let long = anchor.distance(from);
             let share = (1.0 - look.mm(0.5) / long.max(1e-9)).max(0.0);
             let to = from.moved(share * (anchor.x - from.x), share * (anchor.y - from.y));
             let line = Outline::line([from, to]);
@@ -492,7 +492,7 @@ fn chord(shape: &[PagePoint], [a, b]: [PagePoint; 2]) -> f64 {
             (false, false) => {}
         }
     }
-    (high - low).max(0.0) * libm::hypot(b.x - a.x, b.y - a.y)
+    (high - low).max(0.0) * b.distance(a)
 }
 
 /// Returns a convex shape that contains every point within `by` pixels of a corner, measured along the axes.

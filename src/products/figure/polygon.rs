@@ -9,20 +9,18 @@
 
 use std::rc::Rc;
 
-use super::about::About;
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Look, Mark, along};
+use super::design::{ArrowSize, Key, Layer, Look, Mark, along, direction, unit};
 use super::option::Options;
-use super::panel::{Figure, Subject, View};
+use super::panel::{About, Figure, Subject, View};
 use super::placing::Label;
 use super::stage;
-use super::unit::unit;
-use super::verdict;
-use super::words::{force, letter, quantity, round_below_in};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanics::analysis::{Analysis, Failure, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId, ForceCause, RobotId};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke};
+use crate::products::wording::number::{force, letter, quantity, round_below_in};
+use crate::products::wording::verdict;
 
 /// Largest width and height of the polygon, as a fraction of the larger side of the structure.
 const POLYGON_SIZE: f64 = 0.75;
@@ -361,7 +359,7 @@ fn at_structure(canvas: &mut Canvas<'_>, sides: &[Side]) {
         if side.cause.is_action() {
             continue;
         }
-        let u = (side.force.x / norm, -side.force.y / norm);
+        let u = direction(side.force);
         let (at, length) = (canvas.place(side.at), (canvas.scale * norm).max(canvas.mm(1.6)));
         let head = (canvas.mm(1.7), canvas.mm(1.7).min(0.62 * length));
         let outline = ArrowSize { length, shaft: canvas.mm(0.7), head }.outline(at, u);
@@ -387,7 +385,7 @@ fn polygon(canvas: &mut Canvas<'_>, sides: &[Side]) {
     let middle = chain.sides.iter().flatten().map(|p| p.x).sum::<f64>() / (2 * chain.sides.len()).max(1) as f64;
     for ((side, name), ends) in tagged.into_iter().zip(&chain.sides) {
         let [from, to] = ends.map(|p| canvas.place(p));
-        let length = libm::hypot(to.x - from.x, to.y - from.y).max(1e-9);
+        let length = to.distance(from).max(1e-9);
         let u = ((to.x - from.x) / length, (to.y - from.y) / length);
         let wide = if side.cause.is_missing() { 0.9 } else { 0.42 };
         let head = (canvas.mm(1.2 + wide), canvas.mm(1.7).min(0.6 * length));
@@ -417,13 +415,13 @@ fn polygon(canvas: &mut Canvas<'_>, sides: &[Side]) {
     for join in chain.joins.iter().take(if closed { 2 } else { 1 }) {
         let path = Path::stroked(line(canvas, *join), join_stroke(canvas));
         let mark = Mark::new(Layer::Force, "join", vec![path]).keyed(&join_key);
-        canvas.put(mark.titled("The same corner of the force polygon, drawn at two places".into()));
+        canvas.put(mark.titled("The same corner of the force polygon, drawn at two places"));
     }
     if let (Some(last), Some(first), false) = (chain.sides.last(), chain.sides.first(), closed) {
         let stroke = Stroke::new(theme.failure, canvas.mm(0.26)).dashed([canvas.mm(0.9), canvas.mm(0.7)]);
         let path = Path::stroked(line(canvas, [last[1], first[0]]), stroke);
         let mark = Mark::new(Layer::Force, "gap", vec![path]);
-        canvas.put(mark.titled("The force that is missing for equilibrium".into()));
+        canvas.put(mark.titled("The force that is missing for equilibrium"));
     }
 }
 
@@ -452,7 +450,7 @@ fn join_stroke(canvas: &Canvas<'_>) -> Stroke {
 }
 
 /// Returns the entries of the legend: a missing force, the scale, and corners at two places.
-fn keys(canvas: &Canvas<'_>, chain: &Chain) -> (Rc<Key>, Key, Rc<Key>) {
+fn keys(canvas: &Canvas<'_>, chain: &Chain) -> (Rc<Key>, Rc<Key>, Rc<Key>) {
     let (theme, units) = (canvas.theme(), canvas.scene().units.force());
     let start = PagePoint::new(0.0, 0.0);
     let arrow = |length: f64, shaft: f64| {
@@ -462,14 +460,12 @@ fn keys(canvas: &Canvas<'_>, chain: &Chain) -> (Rc<Key>, Key, Rc<Key>) {
     let missing = Side { cause: Cause::MissingGround, on: BlockId(0), at: Point::origin(), force: Vector::zeros() };
     let width = canvas.mm(4.8);
     let symbol = vec![shape(canvas, &missing, arrow(width, 0.9))];
-    let missing = Rc::new(Key { rank: 50, words: "missing".into(), symbol, width });
+    let missing = Key::new(50, "missing", symbol, width);
     let scale = canvas.camera.length(chain.scale);
     let amount = round_below_in(canvas.mm(SCALE_ARROW) / scale, units);
     let symbol = vec![Path::filled(arrow(amount * scale, 0.42), theme.ink)];
     let words = format!("{} in the force polygon", quantity(amount, units));
-    let scale = Key { rank: 20, words, symbol, width: amount * scale };
-    let line = Outline::line([start, start.moved(width, 0.0)]);
-    let symbol = vec![Path::stroked(line, join_stroke(canvas))];
-    let words = "the same corner of the force polygon, drawn at two places".into();
-    (missing, scale, Rc::new(Key { rank: 60, words, symbol, width }))
+    let scale = Key::new(20, words, symbol, amount * scale);
+    let words = "the same corner of the force polygon, drawn at two places";
+    (missing, scale, Key::line(60, words, width, join_stroke(canvas)))
 }

@@ -2,10 +2,10 @@
 
 use super::canvas::Canvas;
 use super::design::{Layer, Mark};
-use super::words::quantity;
 use crate::geometry::Vector;
 use crate::mechanics::scene::BodyId;
 use crate::pictures::drawing::{Outline, Path, Stroke};
+use crate::products::wording::number::quantity;
 
 /// The depth of the diagram where the pressure of the frame is largest, mm.
 const DEPTH: f64 = 7.0;
@@ -26,17 +26,16 @@ pub(crate) fn diagrams(canvas: &mut Canvas<'_>) {
         let depth = |force: Vector| (-force.x / largest * canvas.mm(DEPTH), force.y / largest * canvas.mm(DEPTH));
         let depths = spread.force.map(depth);
         let tips = [0, 1].map(|k| feet[k].moved(depths[k].0, depths[k].1));
-        let length = libm::hypot(feet[1].x - feet[0].x, feet[1].y - feet[0].y);
+        let length = feet[1].distance(feet[0]);
         let mix = |[a, b]: [f64; 2], share: f64| a + (b - a) * share;
-        let mut lines = Outline::default();
-        let mut at = 0.5 * canvas.mm(SPACING);
-        while at < length {
+        let spacing = canvas.mm(SPACING);
+        let places = core::iter::successors(Some(0.5 * spacing), |at| Some(at + spacing));
+        let lines = Outline::lines(places.take_while(|at| *at < length).map(|at| {
             let share = at / length;
             let foot = feet[0].moved((feet[1].x - feet[0].x) * share, (feet[1].y - feet[0].y) * share);
             let (x, y) = (mix(depths.map(|d| d.0), share), mix(depths.map(|d| d.1), share));
-            lines.extend(Outline::line([foot, foot.moved(x, y)]));
-            at += canvas.mm(SPACING);
-        }
+            [foot, foot.moved(x, y)]
+        }));
         let outline = Outline::ring([feet[0], feet[1], tips[1], tips[0]]);
         let shapes = vec![
             Path::filled(outline, fill).with_stroke(Stroke::new(ink, canvas.mm(0.18)).mitred()),

@@ -1,20 +1,17 @@
 //! Draws which blocks may leave: the colour of a block says whether the rest stands without it, whether it stands while a
 //! robot holds another block, or neither.
 
-use std::rc::Rc;
-
-use super::about::About;
 use super::canvas::Canvas;
 use super::design::{Key, Layer, Mark};
 use super::option::Options;
-use super::panel::Figure;
+use super::panel::{About, Figure};
 use super::placing::Label;
 use super::stage;
-use super::verdict;
 use crate::mechanics::analysis::{Analysis, Removable, Verdict};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
 use crate::products::wording::number::quantity;
-use crate::products::wording::removable::phrases;
+use crate::products::wording::question::removable_phrases;
+use crate::products::wording::verdict;
 
 /// Structures of at most this many blocks state the help that each block needs.
 const MAX_AMOUNTS: usize = 16;
@@ -40,7 +37,7 @@ impl Figure for RemovableBlocks {
         let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         match (&found.removable, found.verdict) {
             (_, Verdict::Undecided) => vec![verdict::reason(scene, found)],
-            (rows, _) => phrases(scene, rows.as_deref().unwrap_or_default()),
+            (rows, _) => removable_phrases(scene, rows.as_deref().unwrap_or_default()),
         }
     }
 
@@ -84,7 +81,7 @@ fn block(canvas: &mut Canvas<'_>, row: &Removable, states_amount: bool) {
     let corners = [(0.0, -high), (wide, -high), (wide, high), (0.0, high)];
     let symbol = Outline::ring(corners.map(|(x, y)| PagePoint::new(x, y)));
     let symbol = vec![Path::filled(symbol, fill).with_stroke(edge.clone())];
-    let key = Rc::new(Key { rank, words: words.to_owned(), symbol, width: wide });
+    let key = Key::new(rank, words, symbol, wide);
     let block = &scene.blocks[row.block.0];
     let outline = canvas.camera.polygon(&block.body.polygon);
     let inner = stage::seams(&block.body, scene.lattice, &canvas.camera);

@@ -7,27 +7,23 @@
 //! margin are not unique there (a kink). The figure shows the end of the interval that is nearer to 0; for the load
 //! factor, it shows the upper end. The options of the analysis select the margin.
 
-use super::about::About;
 use super::arrow::MIN_VISIBLE_ARROW;
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, along};
+use super::design::{ArrowSize, Key, Layer, Mark, along, unit};
 use super::option::Options;
-use super::panel::Figure;
+use super::panel::{About, Figure};
 use super::placing::Label;
 use super::stage;
-use super::unit::unit;
-use super::words::{counted, round_below};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanics::analysis::{Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Colour, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme, text};
 use crate::products::wording::failure::pair;
-use crate::products::wording::number::digits;
+use crate::products::wording::number::{counted, digits, round_below};
 use crate::products::wording::sensitivity::{
     self as words, EffectiveChange, FRICTION_STEP, Target, corner_moves, end_name, length, name, step_length, value,
     visible, without,
 };
-use std::rc::Rc;
 
 /// Radius of the ring around the number of a change without an arrow, mm.
 const RING_RADIUS: f64 = 1.9;
@@ -130,7 +126,7 @@ fn arrows(canvas: &mut Canvas<'_>, plan: &Plan) {
     let (start, long) = (PagePoint::new(0.0, 0.0), canvas.mm(4.8));
     let key = |rank: u8, words: String, is_numbered: bool, width: f64| {
         let outline = sized(canvas, width, is_numbered).outline(start, (1.0, 0.0));
-        Rc::new(Key { rank, words, symbol: vec![Path::filled(outline, colour(theme, is_numbered))], width })
+        Key::new(rank, words, vec![Path::filled(outline, colour(theme, is_numbered))], width)
     };
     let plain_key = key(10, "where to move a corner; longer: more effect".into(), false, long);
     let numbered_key = key(12, "most effective moves, listed".into(), true, long);
@@ -173,8 +169,8 @@ fn rings(canvas: &mut Canvas<'_>, plan: &Plan) {
     };
     let (small, width) = (0.6 * radius, 1.2 * radius + canvas.mm(0.3));
     let symbol = ring(PagePoint::new(small + canvas.mm(0.15), 0.0), small);
-    let words = "change of a weight, load or joint, listed".into();
-    let key = Rc::new(Key { rank: 13, words, symbol, width });
+    let words = "change of a weight, load or joint, listed";
+    let key = Key::new(13, words, symbol, width);
     let mut taken: Vec<PagePoint> = Vec::new();
     let mut drawn = Vec::new();
     for change in &plan.changes {
@@ -184,7 +180,7 @@ fn rings(canvas: &mut Canvas<'_>, plan: &Plan) {
             // Leave the tip of the arrow of the load free.
             at = at.moved(1.3 * radius, -1.3 * radius);
         }
-        while taken.iter().any(|other| libm::hypot(other.x - at.x, other.y - at.y) < 2.1 * radius) {
+        while taken.iter().any(|other| other.distance(at) < 2.1 * radius) {
             at = at.moved(0.5 * radius, 0.0);
         }
         taken.push(at);

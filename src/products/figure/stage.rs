@@ -4,12 +4,12 @@ use std::rc::Rc;
 
 use super::bearing::robots_reached;
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, along, colour, overlaps};
+use super::design::{ArrowSize, Key, Layer, Mark, along, colour, direction, overlaps};
 use super::placing::Label;
-use super::words::{force, quantity, round_below_in};
 use crate::geometry::{Bounds, Edge, Lattice, Point, Vector};
 use crate::mechanics::scene::{BlockId, Body, BodyId, Hold, Load, Scene};
 use crate::pictures::drawing::{Camera, Colour, Face, Outline, PagePoint, PageRect, Path, Stroke, arrow, text};
+use crate::products::wording::number::{force, quantity, round_below_in};
 
 /// At most about this many loads have amounts, the largest.
 const MAX_LOAD_AMOUNTS: usize = 16;
@@ -50,13 +50,13 @@ pub(crate) fn ground(canvas: &mut Canvas<'_>) {
                 let outline = canvas.camera.polygon(&ground.body.polygon);
                 let fill = ground.body.fill.map_or(canvas.theme().ground, colour);
                 let mark = Mark::new(Layer::Ground, "earth", vec![Path::filled(outline, fill)]);
-                canvas.put(mark.titled("Ground".into()).avoided(0.0));
+                canvas.put(mark.titled("Ground").avoided(0.0));
             }
             continue;
         }
         let shapes: Vec<Path> = edges.iter().flat_map(|edge| hatched(canvas, body, edge, structure)).collect();
         let mark = Mark::new(Layer::Ground, "earth", shapes);
-        canvas.put(mark.titled("Ground".into()).avoided(0.0));
+        canvas.put(mark.titled("Ground").avoided(0.0));
     }
 }
 
@@ -76,7 +76,7 @@ fn hatched(canvas: &Canvas<'_>, body: BodyId, edge: &Edge, structure: PageRect) 
             [from, to] = part;
         }
     }
-    let length = libm::hypot(to.x - from.x, to.y - from.y);
+    let length = to.distance(from);
     if length <= 0.0 {
         return Vec::new();
     }
@@ -84,14 +84,12 @@ fn hatched(canvas: &Canvas<'_>, body: BodyId, edge: &Edge, structure: PageRect) 
     let outward = edge.outward();
     let inward = if u.1 * outward.x + u.0 * outward.y > 0.0 { 1.0 } else { -1.0 };
     let depth = canvas.mm(1.3);
-    let mut lines = Outline::default();
-    let mut at = canvas.mm(0.5);
-    while at < length {
-        let reach = depth.min(at);
-        let start = along(from, u, at, 0.0);
-        lines.extend(Outline::line([start, along(start, u, -reach, inward * reach)]));
-        at += canvas.mm(0.95);
-    }
+    let first = canvas.mm(0.5);
+    let starts = core::iter::successors(Some(first), |at| Some(at + canvas.mm(0.95))).take_while(|at| *at < length);
+    let lines = Outline::lines(starts.map(|at| {
+        let (reach, start) = (depth.min(at), along(from, u, at, 0.0));
+        [start, along(start, u, -reach, inward * reach)]
+    }));
     let faint = theme.ground.mixed(theme.page, 0.25);
     // The band below the line is pale. It makes the ground an area, which `import` finds again.
     let corner = |at: PagePoint| along(at, u, 0.0, inward * depth);
@@ -134,7 +132,7 @@ pub(crate) fn blocks(canvas: &mut Canvas<'_>) {
             .map(|(x, y)| PagePoint::new(canvas.mm(x), canvas.mm(y))),
     );
     let symbol = vec![Path::stroked(symbol, Stroke::new(theme.faint, canvas.mm(0.35)))];
-    let key = Rc::new(Key { rank: PLAN_RANK, words: "planned block".to_owned(), symbol, width: canvas.mm(2.8) });
+    let key = Key::new(PLAN_RANK, "planned block", symbol, canvas.mm(2.8));
     for plan in &canvas.frame().plans {
         let (block, robot) = (&scene.blocks[plan.block.0], &scene.robots[plan.robot.0]);
         let ink = theme.robot(plan.robot.0);
@@ -221,7 +219,7 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
     if loads.iter().any(|load| load.force.norm() > 0.0 && acts_inside(canvas, load)) {
         symbol.push(Path::filled(Outline::circle(PagePoint::new(canvas.mm(5.0), 0.0), canvas.mm(0.5)), ink));
     }
-    let key = Rc::new(Key { rank: LOAD_RANK, words, symbol, width: canvas.mm(5.5) });
+    let key = Key::new(LOAD_RANK, words, symbol, canvas.mm(5.5));
     for load in &loads {
         if load.force.norm() > 0.0 {
             one_load(canvas, load, scale, &key, load.force.norm() >= least);
@@ -263,7 +261,7 @@ pub(super) fn hollow(canvas: &Canvas<'_>, outline: Outline, ink: Colour) -> Path
 fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>, has_amount: bool) {
     let (scene, ink) = (canvas.scene(), canvas.theme().load);
     let norm = load.force.norm();
-    let u = (load.force.x / norm, -load.force.y / norm);
+    let u = direction(load.force);
     let length = (scale * norm).max(canvas.mm(3.0));
     let at = canvas.place(load.at);
     let stone = |from: f64, to: f64| stone_length(canvas, [along(at, u, from, 0.0), along(at, u, to, 0.0)]);
@@ -387,8 +385,8 @@ pub(crate) fn robot_limits(canvas: &mut Canvas<'_>) {
         vec![Path::filled(outline, theme.ink).cased(theme.page, canvas.mm(0.2))]
     };
     let symbol = diamond(canvas, PagePoint::new(canvas.mm(0.8), 0.0));
-    let words = "robot at its limit".to_owned();
-    let key = Rc::new(Key { rank: LIMIT_RANK, words, symbol, width: canvas.mm(1.6) });
+    let words = "robot at its limit";
+    let key = Key::new(LIMIT_RANK, words, symbol, canvas.mm(1.6));
     for robot in robots_reached(scene, canvas.found()) {
         let title = format!("Robot {} is at its limit", scene.robots[robot.robot.0].id);
         let mark = Mark::new(Layer::Symbol, "limit", diamond(canvas, canvas.place(robot.at)));
@@ -411,7 +409,7 @@ pub(crate) fn robots(canvas: &mut Canvas<'_>) {
         let (norm, mut anchors) = (robot.force.norm(), vec![at]);
         let on = scene.name(BodyId::Block(robot.block));
         if canvas.scale * norm > canvas.mm(1e-3) {
-            let u = (robot.force.x / norm, -robot.force.y / norm);
+            let u = direction(robot.force);
             let length = (canvas.scale * norm).max(canvas.mm(3.4));
             let large = canvas.look.large;
             let (shaft, head) = if large { (0.75, 1.9) } else { (0.6, 1.6) };
@@ -495,11 +493,8 @@ pub(crate) fn dimensions(canvas: &mut Canvas<'_>) {
     let (left, right) = (blocks.at.x, blocks.at.x + blocks.width);
     let (top, bottom) = (blocks.at.y, blocks.at.y + blocks.height);
     let line = |from: PagePoint, to: PagePoint, (dx, dy): (f64, f64)| {
-        let mut line = Outline::line([from, to]);
-        for end in [from, to] {
-            line.extend(Outline::line([end.moved(-dx, -dy), end.moved(dx, dy)]));
-        }
-        Path::stroked(line, Stroke::new(ink, canvas.mm(0.15)))
+        let ends = [from, to].map(|end| [end.moved(-dx, -dy), end.moved(dx, dy)]);
+        Path::stroked(Outline::lines([[from, to], ends[0], ends[1]]), Stroke::new(ink, canvas.mm(0.15)))
     };
     let across = line(PagePoint::new(left, y), PagePoint::new(right, y), (0.0, tick));
     let up = line(PagePoint::new(x, top), PagePoint::new(x, bottom), (tick, 0.0));
@@ -517,16 +512,15 @@ pub(crate) fn dimensions(canvas: &mut Canvas<'_>) {
 }
 
 /// Returns the entry of the legend with a bar of a round length, at most a quarter of the structure.
-pub(crate) fn scale_bar(canvas: &Canvas<'_>) -> Option<Key> {
+pub(crate) fn scale_bar(canvas: &Canvas<'_>) -> Option<Rc<Key>> {
     let units = canvas.scene().units.length();
     let metres = round_below_in(0.25 * canvas.camera.metres(canvas.structure.width), units);
     let (width, tick) = (canvas.camera.length(metres), canvas.mm(0.6));
-    let mut bar = Outline::line([PagePoint::new(0.0, 0.0), PagePoint::new(width, 0.0)]);
-    for x in [0.0, width] {
-        bar.extend(Outline::line([PagePoint::new(x, -tick), PagePoint::new(x, tick)]));
-    }
+    let line = |from: (f64, f64), to: (f64, f64)| [PagePoint::new(from.0, from.1), PagePoint::new(to.0, to.1)];
+    let ends = [0.0, width].map(|x| line((x, -tick), (x, tick)));
+    let bar = Outline::lines([line((0.0, 0.0), (width, 0.0)), ends[0], ends[1]]);
     let symbol = vec![Path::stroked(bar, Stroke::new(canvas.theme().ink, canvas.mm(0.22)))];
-    (metres > 0.0).then(|| Key { rank: 90, words: quantity(metres, units), symbol, width })
+    (metres > 0.0).then(|| Key::new(90, quantity(metres, units), symbol, width))
 }
 
 /// Returns the blocks of all frames, placed or planned.

@@ -1,8 +1,7 @@
 //! Draws the structure without its solution, for exercises: the blocks, the ground, the robots and the loads.
 
-use super::about::About;
 use super::canvas::Canvas;
-use super::panel::Figure;
+use super::panel::{About, Figure};
 use super::stage;
 
 /// The figure of a structure without its solution.

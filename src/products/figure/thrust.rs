@@ -13,25 +13,23 @@ mod leaving;
 use std::borrow::Cow;
 use std::rc::Rc;
 
+use chain::chains;
 use leaving::{left_at, slips, with_missing_forces};
 
-use super::about::About;
 use super::bearing::bearings;
 use super::canvas::Canvas;
-use super::description;
-use super::design::{Key, Layer, Mark};
+use super::design::{Key, Layer, Mark, unit};
 use super::funicular::{ForceOrigin, ThrustSegment, segments};
 use super::option::Options;
-use super::panel::{Figure, Subject};
+use super::panel::{About, Figure, Subject};
 use super::stage;
-use super::unit::unit;
-use super::verdict;
-use super::words::{counted, force, listed, quantity};
 use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict};
 use crate::mechanics::scene::BodyId;
 use crate::mechanics::statics::interface::ContactKind;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
-use chain::chains;
+use crate::products::wording::failure::{named, pair};
+use crate::products::wording::number::{counted, force, listed, quantity};
+use crate::products::wording::verdict;
 
 /// The width of the line of thrust for the largest force in unit lengths, with its least and largest value in mm.
 const WIDEST: (f64, f64, f64) = (0.13, 0.34, 1.2);
@@ -228,21 +226,19 @@ impl Keys {
             (false, true) => "line of thrust of the forces of least sum",
             (false, false) => "line of thrust",
         };
-        let (start, long) = (PagePoint::new(0.0, 0.0), canvas.mm(KEY_LENGTH));
+        let start = PagePoint::new(0.0, 0.0);
         let stroked = |rank: u8, words: String, colour: Colour| {
-            let line = Outline::line([start, start.moved(long, 0.0)]);
-            Rc::new(Key { rank, words, symbol: vec![Path::stroked(line, Stroke::new(colour, widest))], width: long })
+            Key::line(rank, words, canvas.mm(KEY_LENGTH), Stroke::new(colour, widest))
         };
-        let round = |rank: u8, words: &str, radius: f64, symbol: Path| {
-            Rc::new(Key { rank, words: words.to_owned(), symbol: vec![symbol], width: 2.0 * radius })
-        };
+        let round =
+            |rank: u8, words: &str, radius: f64, symbol: Path| Key::new(rank, words, vec![symbol], 2.0 * radius);
         let radius = canvas.mm(0.6);
         let dot = dot(canvas, start.moved(radius, 0.0));
         let (half, stroke) = (canvas.mm(2.0), Stroke::new(theme.failure, canvas.mm(0.35)));
-        let out = Path::stroked(Outline::line([start, start.moved(2.0 * half, 0.0)]), stroke);
+        let out = Path::stroked(Key::piece(2.0 * half), stroke);
         let leaves = vec![out, ring(canvas, start.moved(half, 0.0))];
-        let words = "outside the stone".to_owned();
-        let leaves = Rc::new(Key { rank: 15, words, symbol: leaves, width: 2.0 * half });
+        let words = "outside the stone";
+        let leaves = Key::new(15, words, leaves, 2.0 * half);
         let steep = steep(canvas, start.moved(canvas.mm(0.7), 0.0));
         Keys {
             largest,
@@ -305,7 +301,7 @@ fn title(canvas: &Canvas<'_>, shown: &FrameAnalysis, segment: &ThrustSegment) ->
     let by = match segment.origin {
         ForceOrigin::Contact(number) => {
             let [a, b] = shown.contacts[number].interface.bodies;
-            description::named(scene, if a == BodyId::Block(segment.on) { b } else { a })
+            named(scene, if a == BodyId::Block(segment.on) { b } else { a })
         }
         ForceOrigin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
         ForceOrigin::Load(_) => "a load".to_owned(),
@@ -326,7 +322,7 @@ fn dots(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, keys: &Keys) {
         if bearing.is_none() {
             continue;
         }
-        let (at, pair) = (canvas.place(contact.resultant.at), description::pair(scene, contact.interface.bodies));
+        let (at, pair) = (canvas.place(contact.resultant.at), pair(scene, contact.interface.bodies));
         let mark = if let Some(end) = left_at(contact) {
             let out = Outline::line([canvas.place(end), at]);
             let out = Path::stroked(out, Stroke::new(theme.failure, canvas.mm(0.35)));
@@ -373,14 +369,9 @@ fn limits(canvas: &mut Canvas<'_>, states: &ThrustStates) {
         let Some(state) = state else { continue };
         let ink = theme.motion.mixed(theme.ink, 0.45);
         let stroke = Stroke::new(ink, canvas.mm(LIMIT_WIDTH)).dashed(dashes.map(|length| canvas.mm(length)));
-        let mut outline = Outline::default();
-        for piece in segments(scene, canvas.frame(), &state.frame) {
-            outline.extend(Outline::line([piece.from, piece.to].map(|p| canvas.place(p))));
-        }
-        let width = canvas.mm(KEY_LENGTH);
-        let line = Outline::line([PagePoint::new(0.0, 0.0), PagePoint::new(width, 0.0)]);
-        let symbol = vec![Path::stroked(line, stroke.clone())];
-        let key = Rc::new(Key { rank, words: name.to_lowercase(), symbol, width });
+        let pieces = segments(scene, canvas.frame(), &state.frame).into_iter();
+        let outline = Outline::lines(pieces.map(|piece| [piece.from, piece.to].map(|p| canvas.place(p))));
+        let key = Key::line(rank, name.to_lowercase(), canvas.mm(KEY_LENGTH), stroke.clone());
         let thrust = quantity(state.thrust, scene.units.force());
         let mark = Mark::new(Layer::Force, class, vec![Path::stroked(outline, stroke)]).keyed(&key);
         canvas.put(mark.titled(format!("{name}: {thrust} horizontally at the supports")).avoided(canvas.mm(0.1)));

@@ -6,21 +6,19 @@
 
 use std::rc::Rc;
 
-use super::about::About;
 use super::bearing::{Bearing, bearings, has_limits};
 use super::canvas::Canvas;
-use super::description;
-use super::design::{Key, Layer, Mark};
+use super::design::{Key, Layer, Mark, unit};
 use super::option::Options;
-use super::panel::Figure;
-use super::stage;
-use super::unit::unit;
-use super::verdict;
-use super::words::{FULL_UTILISATION, percent, quantity};
+use super::panel::{About, Figure};
+use super::{stage, verdict};
 use crate::mechanics::analysis::{Analysis, Contact, MarginKind, Verdict};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::pictures::drawing::{Outline, PagePoint, Path, Stroke};
+use crate::products::wording::failure::pair;
 use crate::products::wording::margin::Parameter;
+use crate::products::wording::number::{FULL_UTILISATION, percent, quantity};
+use crate::products::wording::verdict::reason;
 
 /// The width of the line of an interface in unit lengths, with its least and largest width in mm.
 const LINE_WIDTH: (f64, f64, f64) = (0.11, 0.34, 1.1);
@@ -52,7 +50,7 @@ impl Figure for Utilisation {
         let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
         let mut words: Vec<String> = verdict::margin(scene, found, Parameter::Friction).into_iter().collect();
         if found.verdict == Verdict::Undecided {
-            words.push(verdict::reason(scene, found));
+            words.push(reason(scene, found));
         }
         words
     }
@@ -90,10 +88,8 @@ impl Lines {
         let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
         let bold = (width * unit).clamp(canvas.mm(least), canvas.mm(most));
         let (start, long) = (PagePoint::new(0.0, 0.0), canvas.mm(KEY_LENGTH));
-        let line = || Outline::line([start, start.moved(long, 0.0)]);
-        let key = |rank: u8, words: &str, symbol: Vec<Path>| {
-            Rc::new(Key { rank, words: words.to_owned(), symbol, width: long })
-        };
+        let line = || Key::piece(long);
+        let key = |rank: u8, words: &str, symbol: Vec<Path>| Key::new(rank, words, symbol, long);
         let of_key = canvas.mm(0.8);
         let rimmed = |share: f64| rimmed_line(canvas, line(), of_key, Some(share)).to_vec();
         let bar = Outline::line([start.moved(long / 2.0, -canvas.mm(1.2)), start.moved(long / 2.0, canvas.mm(1.2))]);
@@ -101,14 +97,14 @@ impl Lines {
         let disc =
             Path::filled(Outline::circle(start.moved(canvas.mm(0.9), 0.0), canvas.mm(0.9)), theme.amplitude(0.5));
         let disc = vec![disc.with_stroke(Stroke::new(theme.ink, canvas.mm(0.12)))];
-        let words = "of a robot's limits".to_owned();
-        let limits = Rc::new(Key { rank: 14, words, symbol: disc, width: canvas.mm(1.8) });
+        let words = "of a robot's limits";
+        let limits = Key::new(14, words, disc, canvas.mm(1.8));
         let symbol = stage::colour_bar(canvas, COLOURS_LENGTH, |share| theme.amplitude(share));
-        let words = "0 to 100\u{a0}% of the available friction".to_owned();
+        let words = "0 to 100\u{a0}% of the available friction";
         Lines {
             bold,
             limits,
-            colours: Rc::new(Key { rank: 10, words, symbol, width: canvas.mm(COLOURS_LENGTH) }),
+            colours: Key::new(10, words, symbol, canvas.mm(COLOURS_LENGTH)),
             // In other equilibrium states, the same interface or robot may use less of its friction or limits.
             full: key(11, "all of it in the forces shown", full.collect()),
             smooth: key(12, "no friction available", rimmed_line(canvas, line(), of_key, None).to_vec()),
@@ -126,7 +122,7 @@ impl Lines {
             all.partition(|(contact, _)| contact.interface.kind == ContactKind::Corner);
         for (contact, bearing) in edges.into_iter().chain(corners) {
             let line = Outline::line(contact.interface.ends.map(|p| canvas.place(p)));
-            let pair = description::pair(scene, contact.interface.bodies);
+            let pair = pair(scene, contact.interface.bodies);
             let Some(bearing) = bearing else {
                 let path = Path::stroked(line, idle_stroke(canvas, self.bold));
                 let mark = Mark::new(Layer::Stone, "interface", vec![path]);

@@ -5,7 +5,6 @@ use crate::mechanics::analysis::{Analysis, FrameAnalysis, Interval, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
 use crate::products::wording::margin::{self, Parameter};
-pub(crate) use crate::products::wording::verdict::{plain as word, reason};
 
 /// With more blocks than this in a frame, a figure does not ask for a margin that it can do without, because it would
 /// take longer than the figure.
@@ -38,7 +37,7 @@ pub(crate) fn colour(verdict: Verdict, theme: &Theme) -> Colour {
 pub(crate) fn badge(frame_analysis: &FrameAnalysis) -> &'static str {
     match frame_analysis.only_by_wedging {
         Some(true) if frame_analysis.verdict == Verdict::Stable => "stands only by wedging",
-        _ => word(frame_analysis.verdict),
+        _ => frame_analysis.verdict.plain(),
     }
 }
 

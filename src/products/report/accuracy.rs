@@ -9,10 +9,8 @@ use maud::{DOCTYPE, PreEscaped, html};
 
 use crate::mechanics::analysis::{Accuracy, Verdict};
 use crate::pictures::chart::{ChartError, Point, Scatter, Series, scatter};
-use crate::products::result::word;
 use crate::products::study::{Case, Mark, Method, Run, Summary, summary};
 use crate::products::wording::number::counted;
-use crate::products::wording::verdict::plain;
 use crate::text;
 
 /// Relative errors below this value are drawn at this value and written as 0. They are rounding errors, because the
@@ -129,12 +127,12 @@ pub fn csv(study: &[Case]) -> String {
                 env!("CARGO_PKG_VERSION").to_owned(),
                 text::csv(&case.name),
                 case.blocks.to_string(),
-                word(case.reference.verdict).to_owned(),
+                case.reference.verdict.word().to_owned(),
                 method.name().to_owned(),
                 format!("{tolerance:e}"),
                 format!("{:e}", outcome.seconds),
                 outcome.iterations.to_string(),
-                word(outcome.verdict).to_owned(),
+                outcome.verdict.word().to_owned(),
                 if *mark == Mark::Wrong { "WRONG" } else { mark.word() }.to_owned(),
                 number(*total_error),
                 number(*largest_error),
@@ -194,7 +192,7 @@ fn frame(case: &Case) -> maud::Markup {
     html! {
         details {
             summary {
-                (text::line(&case.name)) ": " (plain(reference.verdict)) ", " (counted(case.blocks, "block"))
+                (text::line(&case.name)) ": " (reference.verdict.plain()) ", " (counted(case.blocks, "block"))
                 @if wrong > 0 { ", " (counted(wrong, "wrong verdict")) }
             }
             p.small {
@@ -217,7 +215,7 @@ fn frame(case: &Case) -> maud::Markup {
                         td { (format!("{tolerance:.0e}")) }
                         td { (format!("{:.3}", 1e3 * outcome.seconds)) }
                         td { (outcome.iterations) }
-                        td.undecided[*mark == Mark::Undecided] { (plain(outcome.verdict)) @if *mark == Mark::Wrong { " (wrong)" } }
+                        td.undecided[*mark == Mark::Undecided] { (outcome.verdict.plain()) @if *mark == Mark::Wrong { " (wrong)" } }
                         td { (small(*total_error)) }
                         td { (small(*largest_error)) }
                         td { (outcome.failures) }

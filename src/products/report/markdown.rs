@@ -6,7 +6,6 @@ use super::entry::{Badge, Chart, Entry, Figure, Grid, MarginBar, Section, SheetP
 use super::head::{Head, OutputFile, ReportError, sign, slug};
 use crate::pictures::output::svg::{self, Options, Words};
 use crate::products::wording::margin::Position;
-use crate::products::wording::verdict::plain;
 use crate::text::{self, markdown, markdown_cell};
 
 /// The number of characters of a bar.
@@ -102,7 +101,7 @@ impl Writer {
             ("", "") => {}
             ("", title) => self.line(&format!("### {}\n", markdown(title))),
             (letter, title) => {
-                let verdict = plain(section.verdict);
+                let verdict = section.verdict.plain();
                 self.line(&format!("### ({letter}) {}: {verdict}\n", markdown(title)));
             }
         }
@@ -136,7 +135,7 @@ impl Writer {
 
     fn badge(&mut self, badge: &Badge) {
         let mark = sign(badge.verdict);
-        let verdict = plain(badge.verdict);
+        let verdict = badge.verdict.plain();
         let headline = match badge.headline.as_str() {
             "" => String::new(),
             words => format!(" · {}", markdown(words)),

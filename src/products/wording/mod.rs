@@ -6,18 +6,9 @@
 //! [`text`](crate::text).
 
 pub mod capacity;
-pub mod case;
 pub mod failure;
 pub mod margin;
-pub mod movement;
 pub mod number;
-pub mod placement;
-#[cfg(feature = "cli")]
-pub mod reach;
-pub mod removable;
-pub mod proof;
+pub mod question;
 pub mod sensitivity;
-#[cfg(any(feature = "report", feature = "cli"))]
-pub mod thrust;
-pub mod vehicle;
 pub mod verdict;

@@ -101,7 +101,7 @@ pub(super) fn list<'e>(elements: impl Iterator<Item = &'e str>, bodies: &[Option
         .collect();
     boxes.sort_by(|a, b| a.2.min.y.total_cmp(&b.2.min.y));
     let more = boxes.len().saturating_sub(MAX_LISTED_BODIES);
-    let number = |x: f64| super::scale::six_digits(x / unit);
+    let number = |x: f64| super::draft::six_digits(x / unit);
     let line = |(i, element, b): &(usize, &str, Bounds)| {
         format!(
             "{i}: {element}, from ({}, {}) to ({}, {})",

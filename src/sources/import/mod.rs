@@ -15,21 +15,18 @@
 //! reported by name. Drawings contain no friction between materials, limits of robots, loads or steps, so these are not
 //! imported.
 
-mod affine;
 mod limit;
 mod choice;
-mod degrees;
 mod draft;
 mod dxf;
 mod scene_file;
 mod compas;
 mod contact_list;
-mod scale;
-mod snapping;
 mod geojson;
 mod name;
 mod naming;
 mod outline;
+mod snapping;
 mod region;
 mod svg;
 mod stone;
@@ -37,20 +34,19 @@ mod subpath;
 mod trial;
 mod wkt;
 
+use choice::Chosen;
 #[cfg(feature = "python")]
 pub(crate) use compas::sections;
 pub use draft::Remark;
+use draft::{Draft, PartGeometry, Role, Scale};
+use naming::Naming;
+use outline::Outlines;
 pub use stone::{STONES, Stone};
+use trial::Trial;
 
 use crate::mechanics::scene::Scene;
 use crate::mechanics::scene::format::SceneFile;
 use crate::text::first_of;
-use choice::Chosen;
-use draft::{Draft, PartGeometry, Role};
-use naming::Naming;
-use outline::Outlines;
-use scale::Scale;
-use trial::Trial;
 
 /// The default largest distance of a chord from its curve, and the default gap, as fractions of the size of the
 /// drawing. This is about a pixel on a screen; nobody draws more accurately by hand.
@@ -356,7 +352,7 @@ fn build_scene(
     let flatten = options.flatten.unwrap_or(LENGTH_TOL * size);
     let close = options.gap.unwrap_or(LENGTH_TOL * size).min(LENGTH_TOL * size);
     if draft.parts.iter().any(|p| matches!(&p.form, PartGeometry::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(|s| s.has_curves() && s.circle().is_none()))) {
-        draft.notes.push(format!("curves are replaced by chords, at most {} m from the curve", scale::short(flatten)));
+        draft.notes.push(format!("curves are replaced by chords, at most {} m from the curve", draft::short(flatten)));
     }
     if let Some(problem) = limit::corners_problem(&draft, flatten) {
         return Err(DrawingProblems::of(vec![problem]));
@@ -374,7 +370,7 @@ fn build_scene(
     let trial = Trial { drawn: outlines.clone(), names: &names, size, gap };
     let snapped = outlines.snap(&mut draft, &names, gap);
     if gap > 0.0 {
-        draft.notes.push(format!("edges within {} m of each other are moved so that they touch", scale::short(gap)));
+        draft.notes.push(format!("edges within {} m of each other are moved so that they touch", draft::short(gap)));
     }
     let scene = scene_file::scene(&outlines, &names, &mut draft, title, [size, gap], &options.scene);
     if scene.thickness.is_none() {

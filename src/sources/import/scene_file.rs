@@ -2,10 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::draft::{Draft, Role};
+use super::draft::{Draft, Role, short};
 use super::name::Names;
 use super::outline::{Body, Outlines};
-use super::scale::short;
 use crate::geometry::{Aabb, Bounds, BoxIndex, Circle, Point, Polygon};
 use crate::mechanics::scene::format::{
     BlockEntry, CircleEntry, GroundEntry, Map, MaterialEntry, Pair, RobotEntry, SceneFile,

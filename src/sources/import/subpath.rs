@@ -3,13 +3,12 @@
 //! A curve is divided into equal steps of its parameter. The number of steps follows from a bound on the distance
 //! between chord and curve. Adaptive subdivision would need fewer steps, but equal steps give the same corners if the
 //! curve is drawn in the other direction, as in the outline of the neighbouring block. The two blocks therefore touch
-//! along the whole curve.
+//! along the whole curve. [`Affine`] maps are the nested transforms in a drawing.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
-use super::affine::Affine;
 use crate::geometry::snap::Corner;
-use crate::geometry::{Circle, Point, Vector, cross};
+use crate::geometry::{Circle, Point, Vector, cross, sin_cos_degrees};
 
 /// Arcs whose centres, radii and angles differ by less than this share of the radius form one circle.
 const SAME_CIRCLE: f64 = 1e-6;
@@ -266,6 +265,46 @@ fn largest_radius(u: Vector, v: Vector) -> f64 {
     ((sum + inner) / 2.0).sqrt()
 }
 
+/// x ↦ a·x + c·y + e, y ↦ b·x + d·y + f, as SVG writes `matrix(a b c d e f)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Affine(pub(super) [f64; 6]);
+
+impl Affine {
+    pub(super) const IDENTITY: Affine = Affine([1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+
+    pub(super) fn translation(x: f64, y: f64) -> Affine {
+        Affine([1.0, 0.0, 0.0, 1.0, x, y])
+    }
+
+    pub(super) fn scale(x: f64, y: f64) -> Affine {
+        Affine([x, 0.0, 0.0, y, 0.0, 0.0])
+    }
+
+    /// Returns the rotation by an angle in degrees, from the x axis towards the y axis. Multiples of 90° are exact.
+    pub(super) fn rotation(degrees: f64) -> Affine {
+        let (sin, cos) = sin_cos_degrees(degrees);
+        Affine([cos, sin, -sin, cos, 0.0, 0.0])
+    }
+
+    /// Returns the composition: `inner` is applied first, then this map.
+    pub(super) fn after(&self, inner: &Affine) -> Affine {
+        let [a, b, c, d, e, f] = inner.0;
+        let (x, y) = (self.vector(Vector::new(a, b)), self.vector(Vector::new(c, d)));
+        let at = self.point(Point::new(e, f));
+        Affine([x.x, x.y, y.x, y.y, at.x, at.y])
+    }
+
+    pub(super) fn point(&self, p: Point) -> Point {
+        let [a, b, c, d, e, f] = self.0;
+        Point::new(a * p.x + c * p.y + e, b * p.x + d * p.y + f)
+    }
+
+    pub(super) fn vector(&self, v: Vector) -> Vector {
+        let [a, b, c, d, _, _] = self.0;
+        Vector::new(a * v.x + c * v.y, b * v.x + d * v.y)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -311,5 +350,13 @@ mod tests {
         subpath.closed = false;
         assert_eq!(subpath.flattened(0.1, 1e-6), None);
         assert_eq!(subpath.flattened(0.1, 0.01).map(|c| c.len()), Some(3));
+    }
+
+    #[test]
+    fn the_inner_map_comes_first() {
+        let map = Affine::translation(10.0, 20.0).after(&Affine::rotation(90.0));
+        assert_eq!(map.point(Point::new(3.0, 1.0)), Point::new(9.0, 23.0));
+        let map = Affine::rotation(90.0).after(&Affine::translation(10.0, 20.0));
+        assert_eq!(map.point(Point::new(3.0, 1.0)), Point::new(-21.0, 13.0));
     }
 }

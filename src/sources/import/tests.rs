@@ -1,7 +1,7 @@
 //! Tests of small drawings that are imported as scenes.
 
+use super::draft::Scale;
 use super::naming::Naming;
-use super::scale::Scale;
 use super::*;
 use crate::geometry::Point;
 

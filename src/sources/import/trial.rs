@@ -2,12 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::Remark;
-use super::draft::Draft;
+use super::draft::{Draft, short};
 use super::name::Names;
 use super::outline::{Body, Outlines};
-use super::scale::short;
-use super::scene_file;
+use super::{Remark, scene_file};
 use crate::geometry::{ConvexPieces, Point, Polygon, overlap};
 use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{BlockId, BodyId, Code, Place, Problem, Scene, SceneError};

@@ -78,10 +78,6 @@ fn every_level_gives_the_same_verdicts() {
     let ran = bench.run("check --accuracy best stands.json");
     assert_eq!(ran.code, 2);
     assert!(ran.err.contains("standard, proved"), "{}", ran.err);
-    // For a level of earlier versions the message names its replacement.
-    let ran = bench.run("check --accuracy draft stands.json");
-    assert_eq!(ran.code, 2);
-    assert!(ran.err.contains("removed") && ran.err.contains("\"standard\""), "{}", ran.err);
 }
 
 #[test]

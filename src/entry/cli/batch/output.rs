@@ -1,16 +1,21 @@
 //! The output of a batch: standard output or a file. With `--resume`, a later run can continue an output file, unless
-//! it is a CSV file or a device.
+//! it is a CSV file or a device. A CSV file has one row for each frame and one for each scene that is not valid; the
+//! columns are the same in every run.
 
 use std::fs::File;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
+use super::Form;
 use super::resume::{self, ResumeFile, Settings};
-use super::{Form, csv};
 use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
+use crate::mechanics::analysis::{Analysis, FrameAnalysis};
 use crate::mechanics::batch::Records;
+use crate::mechanics::scene::Problem;
+use crate::products::result::Origin;
+use crate::text;
 
 /// Lines are collected in memory until they have this many bytes, and then written.
 const BUFFER_BYTES: usize = 1 << 16;
@@ -60,7 +65,7 @@ impl Output {
         let file = File::create(path).map_err(not_written)?;
         if target.form == Form::Csv {
             let mut output = Output::new(Box::new(file), Some(path));
-            output.waiting.extend_from_slice(csv::HEADER.as_bytes());
+            output.waiting.extend_from_slice(CSV_HEADER.as_bytes());
             return Ok(output);
         }
         // A device or a pipe does not store the answers, so a later run could not continue them.
@@ -109,4 +114,58 @@ impl Output {
             Err(error) => Err(CliError::not_written(&self.name, error)),
         }
     }
+}
+
+/// The first row: the names of the columns. Forces are in newtons, and all numbers have at most twelve significant
+/// digits. `friction_used` is the largest used fraction of the available friction at any contact, and `limit_used` the
+/// largest used fraction of the limits of any robot.
+const CSV_HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,largest_force_n,total_force_n,total_sticking_n,friction_used,limit_used,problem\n";
+
+/// Returns the rows of a scene, one for each frame.
+pub(super) fn csv_rows(origin: &Origin, analysis: &Analysis) -> String {
+    let scene = &analysis.scene;
+    let frames = analysis.frames.iter().zip(&scene.frames).enumerate();
+    let row = |(number, (answer, frame)): (usize, (&FrameAnalysis, &crate::mechanics::scene::Frame))| {
+        let [start, title] = [place(origin), cell(&frame.title)];
+        let name = cell(&scene.title);
+        let verdict = answer.verdict.word();
+        let forces = answer.contacts.iter().map(|c| c.resultant.force.norm());
+        let numbers = [
+            answer.weight,
+            forces.fold(0.0, f64::max),
+            answer.total_force,
+            answer.total_sticking,
+            (answer.contacts.iter().map(|c| c.friction_used)).fold(0.0, f64::max),
+            (answer.robots.iter().map(|r| r.limit_used)).fold(0.0, f64::max),
+        ];
+        let numbers = numbers.map(|number| rounded(number).to_string()).join(",");
+        format!("{start},{name},{},{title},{verdict},{numbers},\n", number + 1)
+    };
+    frames.map(row).collect()
+}
+
+/// Returns the CSV row of a scene that is not valid. The row contains only the first problem of the scene.
+pub(super) fn csv_problem_row(origin: &Origin, problems: &[Problem]) -> String {
+    // If the scene is a line of the input, its own lines do not matter.
+    let words = problems.first().map_or(String::new(), |problem| match origin.line.unwrap_or(problem.line) {
+        0 => problem.message.clone(),
+        line => format!("line {line}: {}", problem.message),
+    });
+    let between = ",".repeat(CSV_HEADER.matches(',').count() - 1);
+    format!("{}{between}{}\n", place(origin), cell(&words))
+}
+
+/// Rounds a number to twelve significant digits. The digits after these are rounding errors of sums.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.11e}").parse().unwrap_or(number)
+}
+
+fn place(origin: &Origin) -> String {
+    let file = origin.file.as_deref().map_or(String::new(), text::csv);
+    let line = origin.line.map_or(String::new(), |line| line.to_string());
+    format!("{file},{line}")
+}
+
+fn cell(words: &str) -> String {
+    if words.is_empty() { String::new() } else { text::csv(words) }
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use crate::clock::Instant;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::terminal::Terminal;
-use crate::entry::request::between;
+use crate::entry::value::between;
 use crate::mechanics::analysis::Verdict;
 use crate::products::wording::number::counted as in_words;
 use crate::products::wording::verdict::counted;

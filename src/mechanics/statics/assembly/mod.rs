@@ -8,18 +8,16 @@
 //! Invariant: body, contact and grip numbers are indices into the assembly's own lists. The first body of a contact is
 //! never the ground. Each load vector is the sum of weight and listed loads ([`Assembly::with_summed_loads`]).
 
-mod component;
-mod substructure;
-mod variation;
-
-pub(crate) use component::DisjointSets;
-pub use substructure::Substructure;
+mod part;
 
 use std::sync::Arc;
 
+pub(crate) use part::DisjointSets;
+pub use part::Substructure;
+
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::mechanics::scene::{BlockId, BodyId, Frame, Limits, RobotId, Scene};
-use crate::mechanics::statics::interface::{ContactKind, Interface};
+use crate::mechanics::statics::interface::{ContactKind, Interface, application_points};
 
 /// One frame of a scene, or a component of it, as a system of rigid bodies.
 #[derive(Clone, Debug)]
@@ -235,4 +233,42 @@ fn characteristic_length(scene: &Scene, frame: &Frame, interfaces: &[&Interface]
 fn median(mut list: Vec<f64>) -> Option<f64> {
     list.sort_by(f64::total_cmp);
     list.get(list.len().saturating_sub(1) / 2).copied()
+}
+
+/// Changes of one quantity, such as friction, for the computation of margins. The bodies stay in their positions.
+impl Assembly {
+    /// Sets the friction coefficient of every contact to `mu`.
+    pub fn with_friction(mut self, mu: f64) -> Assembly {
+        for contact in &mut self.contacts {
+            contact.friction = mu;
+        }
+        self
+    }
+
+    /// Moves the application points inward by `kernel`/2 of each interface's length, measured from the interface's
+    /// ends.
+    pub fn with_kernel(mut self, kernel: f64) -> Assembly {
+        for contact in &mut self.contacts {
+            contact.points = application_points(contact.ends, kernel);
+        }
+        self
+    }
+
+    /// Sets the gravity vector `pull`, in newtons per newton of weight, and recomputes the loads.
+    pub fn with_gravity(mut self, pull: Vector) -> Assembly {
+        self.pull = pull;
+        self.with_summed_loads()
+    }
+
+    /// Sets the factor by which the listed loads are multiplied, and recomputes the loads.
+    pub fn with_load_factor(mut self, factor: f64) -> Assembly {
+        self.load_factor = factor;
+        self.with_summed_loads()
+    }
+
+    /// Sets the limits of the grip with this index.
+    pub fn with_limits(mut self, grip: usize, limits: Limits) -> Assembly {
+        self.grips[grip].limits = limits;
+        self
+    }
 }

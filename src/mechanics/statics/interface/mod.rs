@@ -6,13 +6,11 @@
 
 mod circle;
 mod corner;
-mod common_segment;
+mod segment;
 mod edge;
 mod join;
 mod pinned;
 mod lattice;
-mod notice;
-mod gap_segment;
 #[cfg(test)]
 mod tests;
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::BodyId;
-use crate::products::figure::unit::unit;
+use crate::products::figure::design::unit;
 
 fn falling() -> Vec<Scene> {
     [

@@ -11,11 +11,10 @@ use crate::pictures::drawing::symbol::{Accent, Symbol};
 use crate::pictures::drawing::{Colour, PagePoint, Path, Stroke};
 use crate::products::figure::arrow::MIN_VISIBLE_ARROW;
 use crate::products::figure::canvas::Canvas;
-use crate::products::figure::design::{ArrowSize, along};
+use crate::products::figure::design::{ArrowSize, along, unit};
 use crate::products::figure::option::Corners;
 use crate::products::figure::parallel_arrows::{Lane, shifts};
 use crate::products::figure::stage;
-use crate::products::figure::unit::unit;
 
 /// Length of the longest arrow, mm.
 const MAX_LENGTH: f64 = 12.0;
@@ -220,10 +219,8 @@ impl<'c, 'a> Arrows<'c, 'a> {
             };
             if force.torque != 0.0 {
                 if is_given || force.torque.abs() > NOISE * largest * edge {
-                    let near = |other: &&Arrow| {
-                        other.torque.is_some()
-                            && libm::hypot(other.at.x - straight.at.x, other.at.y - straight.at.y) < self.canvas.mm(1.0)
-                    };
+                    let near =
+                        |other: &&Arrow| other.torque.is_some() && other.at.distance(straight.at) < self.canvas.mm(1.0);
                     let here = arrows.iter().filter(near).count() as f64;
                     let length = self.canvas.mm(TORQUE_SIZES.0 + TORQUE_STEP * here);
                     arrows.push(Arrow { torque: Some(force.torque), hollow: false, length, ..straight });

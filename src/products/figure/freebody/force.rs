@@ -1,7 +1,6 @@
 //! [`Force`]: a force on a block with its name in a free-body diagram. [`forces`] collects all forces on the block.
 
 use super::super::option::{Corners, Options};
-use super::super::words::{force as amount, quantity};
 use super::surroundings::{Corner, corners, distinct, inward, other};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
 use crate::mechanics::analysis::{Analysis, Contact, Failure, FrameAnalysis};
@@ -9,6 +8,7 @@ use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause, Scene};
 use crate::pictures::drawing::Colour;
 use crate::pictures::drawing::symbol::{Accent, Symbol};
+use crate::products::wording::number::{force as amount, quantity};
 
 /// For a block with at most this many interfaces, forces are drawn at both ends of each interface, unless the options
 /// select another level of detail.

@@ -6,11 +6,11 @@ use super::chain::{Chain, chains};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanics::analysis::FrameAnalysis;
 use crate::mechanics::scene::{AppliedForce, ForceCause};
-use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke};
+use crate::pictures::drawing::{Colour, Outline, Path, Stroke};
 use crate::products::figure::canvas::Canvas;
 use crate::products::figure::design::{Key, Layer, Mark};
 use crate::products::figure::placing::Label;
-use crate::products::figure::words::{force, quantity, round_below_in};
+use crate::products::wording::number::{force, quantity, round_below_in};
 
 /// The space of the fans to the right of the structure, as a fraction of the longer side of the structure.
 pub(super) const WIDTH_SHARE: f64 = 0.6;
@@ -58,15 +58,13 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, found: &FrameAnalysis) -> bool {
     let units = scene.units.force();
     let pixels = canvas.camera.length(metres);
     let newtons = round_below_in(canvas.mm(MAX_SCALE_LINE) / pixels, units);
-    let width = newtons * pixels;
-    let line = Outline::line([PagePoint::new(0.0, 0.0), PagePoint::new(width, 0.0)]);
-    let symbol = vec![Path::stroked(line, Stroke::new(canvas.theme().motion, canvas.mm(WIDTHS[1])))];
-    canvas.explain(Key {
-        rank: 20,
-        words: format!("{} in the force polygon", quantity(newtons, units)),
-        symbol,
-        width,
-    });
+    let stroke = Stroke::new(canvas.theme().motion, canvas.mm(WIDTHS[1]));
+    canvas.explain(Key::line(
+        20,
+        format!("{} in the force polygon", quantity(newtons, units)),
+        newtons * pixels,
+        stroke,
+    ));
     canvas.note(79, "ray from O: force in the joint of this number");
     true
 }

@@ -4,7 +4,7 @@ use crate::mechanics::analysis::{End, FrameAnalysis, Interval};
 use crate::mechanics::scene::Scene;
 use crate::products::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
 use crate::products::wording::number::{three_down, three_up};
-use crate::products::wording::placement;
+use crate::products::wording::question;
 
 /// The way in which one end of a bar is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,16 +56,16 @@ pub fn margin_bars(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<MarginB
 /// is analysed has the error 0.
 pub(super) fn placement_bar(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<MarginBar> {
     let found = frame_analysis.placement.as_ref()?;
-    let proved = placement::length(scene, found.proved, three_down);
+    let proved = question::placement_length(scene, found.proved, three_down);
     let confirmed = found.falls_at.is_some_and(|at| at <= found.proved * (1.0 + 1e-3));
     let farthest = found.falls_at.unwrap_or(found.proved);
     Some(MarginBar {
         name: "placement tolerance".to_owned(),
-        words: placement::sentence(scene, frame_analysis, found),
+        words: question::placement_sentence(scene, frame_analysis, found),
         ends_and_present: [
             "0".to_owned(),
             if confirmed { proved } else { format!("at least {proved}") },
-            placement::length(scene, 0.0, three_up),
+            question::placement_length(scene, 0.0, three_up),
         ],
         scale: (0.0, if farthest > 0.0 { SCALE_END_RATIO * farthest } else { 1.0 }),
         safe: Some((0.0, found.proved)),

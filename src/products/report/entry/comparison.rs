@@ -26,7 +26,7 @@ use crate::products::figure::{self, ForceChange, Kind, count_in_words, noise, sh
 use crate::products::wording::failure::pair;
 use crate::products::wording::margin::headline;
 use crate::products::wording::number::{counted, digits, letter, listed, percent, tenths};
-use crate::products::wording::verdict::{self, plain};
+use crate::products::wording::verdict;
 use crate::text::line;
 
 /// One of the two scenes of a comparison.
@@ -138,7 +138,7 @@ fn table(pairs: &[Pair<'_>]) -> Grid {
         let title = pair.sides[1].analysis.scene.frames[pair.number].title.as_str();
         let verdict = |side: usize| {
             let words = headline(&pair.sides[side].analysis.scene, pair.number, pair.frames[side]);
-            let verdict = plain(pair.frames[side].verdict);
+            let verdict = pair.frames[side].verdict.plain();
             if words.is_empty() { verdict.to_owned() } else { words }
         };
         let differs = match pair.sentence().split_once("; ") {
@@ -164,7 +164,7 @@ fn plate(side: Side<'_>, frame_analysis: &FrameAnalysis, drawing: Drawing) -> Fi
     let with = if set.is_empty() { String::new() } else { format!(" with {}", listed(set)) };
     let name = line(&format!("{}{with}", file_name(side.file.name)));
     Figure {
-        caption: format!("{name}: {}.", plain(frame_analysis.verdict)),
+        caption: format!("{name}: {}.", frame_analysis.verdict.plain()),
         drawing,
         dark: None,
         touches: Vec::new(),

@@ -9,9 +9,7 @@ use crate::pictures::drawing::{Camera, Outline, PagePoint, Segment};
 use crate::products::wording::failure;
 use crate::products::wording::margin::headline;
 use crate::products::wording::number::quantity;
-use crate::products::wording::verdict::plain;
-use crate::text;
-use crate::text::line;
+use crate::text::{self, line};
 
 /// Width and height of a thumbnail, in pixels.
 const THUMBNAIL_SIZE: (f64, f64) = (96.0, 60.0);
@@ -116,8 +114,8 @@ impl Row {
     /// Returns the verdict as text, or both verdicts of a comparison: `stands → falls`.
     pub(crate) fn verdict_words(&self) -> String {
         match self.before {
-            Some(before) => format!("{} → {}", plain(before), plain(self.verdict)),
-            None => plain(self.verdict).to_owned(),
+            Some(before) => format!("{} → {}", before.plain(), self.verdict.plain()),
+            None => self.verdict.plain().to_owned(),
         }
     }
 

@@ -12,9 +12,8 @@ use crate::pictures::drawing::{Drawing, Theme};
 use crate::products::figure::{self, Kind, Options};
 use crate::products::wording::margin::headline;
 use crate::products::wording::number::letter;
-use crate::products::wording::thrust::thrust_range;
-use crate::products::wording::verdict::plain;
-use crate::products::wording::{case, movement, placement, proof, removable, vehicle, verdict};
+use crate::products::wording::question::{self, thrust_range};
+use crate::products::wording::verdict;
 use crate::text::line;
 
 /// Width of a figure of the whole page, pixels, the height of its picture, and that of the outline on the first page.
@@ -122,7 +121,7 @@ pub(super) fn sheet(
     parts.push(SheetPart::Heading("Balance of forces".to_owned()));
     parts.push(SheetPart::Table(balance::whole(analysis, number)));
     parts.push(SheetPart::Note(balance::check_words(found)));
-    let mut last = vec![assumptions(scene, found), proof::sentence(found.proof)];
+    let mut last = vec![assumptions(scene, found), verdict::proof_sentence(found.proof)];
     last.extend(remarks(scene, found));
     parts.push(SheetPart::Heading("Assumptions and proof".to_owned()));
     parts.push(SheetPart::Note(last.join(" ")));
@@ -166,7 +165,7 @@ pub(super) fn others(analysis: &Analysis, numbers: &[usize], report_options: &Re
         figures.truncate(1);
         figures.iter_mut().for_each(|figure| figure.touches.clear());
         vec![
-            SheetPart::Heading(format!("({}) {}: {}", own.letter, own.title, plain(own.verdict))),
+            SheetPart::Heading(format!("({}) {}: {}", own.letter, own.title, own.verdict.plain())),
             SheetPart::Figures(figures),
             SheetPart::Note(sentence(scene, frame_analysis)),
         ]
@@ -311,7 +310,7 @@ fn cases(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
     let is_alike = |name: &str| bars.iter().flatten().all(|bar| bar.name == name);
     let scales = || bars.iter().flatten().map(|bar| bar.scale);
     let scale = scales().fold((0.0_f64, 0.0_f64), |(low, high), scale| (low.min(scale.0), high.max(scale.1)));
-    let has_worst = cases.each.len() > 1 && case::worst(frame_analysis).is_some();
+    let has_worst = cases.each.len() > 1 && question::worst_case(frame_analysis).is_some();
     for (number, (case, bar)) in cases.each.iter().zip(&bars).enumerate() {
         let name = TableCell::strong_if(has_worst && number == cases.governing, line(&case.id));
         let verdict = TableCell::from(case.verdict.plain());
@@ -339,11 +338,11 @@ fn movements(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
     for moved in &frame_analysis.movements {
         let [force, joints] = match &moved.outcome {
             MovementOutcome::Follows(cracked) => {
-                [movement::force(scene, cracked), movement::cracks(scene, frame_analysis, cracked)]
+                [question::movement_force(scene, cracked), question::cracks(scene, frame_analysis, cracked)]
             }
-            other => [String::new(), movement::without_state(other).to_owned()],
+            other => [String::new(), question::without_state(other).to_owned()],
         };
-        grid.add("", [movement::movement(scene, moved), force, joints].map(|words| line(&words)));
+        grid.add("", [question::movement(scene, moved), force, joints].map(|words| line(&words)));
     }
     let note = "Of all forces that balance the structure, those whose force on the support does least work on the \
                 movement (H to the right, V upwards). Small displacements, per millimetre of the movement; a joint that \
@@ -369,11 +368,12 @@ fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
 /// the notices of the analysis.
 fn remarks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
     let influence = frame_analysis.vehicle.as_ref();
-    let influence = influence.map(|own| format!("Vehicle: {}.", line(&vehicle::sentence(scene, own))));
+    let influence = influence.map(|own| format!("Vehicle: {}.", line(&question::vehicle_sentence(scene, own))));
     let placement = frame_analysis.placement.as_ref();
-    let placement = placement.map(|p| format!("Placement: {}.", line(&placement::sentence(scene, frame_analysis, p))));
+    let placement =
+        placement.map(|p| format!("Placement: {}.", line(&question::placement_sentence(scene, frame_analysis, p))));
     let rows = frame_analysis.removable.iter();
-    let rows = rows.map(|rows| format!("Removable: {}.", line(&removable::phrases(scene, rows).join("; "))));
+    let rows = rows.map(|rows| format!("Removable: {}.", line(&question::removable_phrases(scene, rows).join("; "))));
     let wedging = frame_analysis
         .effects
         .iter()

@@ -11,8 +11,7 @@ use crate::pictures::chart::{self, Bars};
 use crate::products::result::Timing;
 use crate::products::wording::margin::headline;
 use crate::products::wording::number::{counted, duration, letter, place, prefixed};
-use crate::products::wording::verdict::plain;
-use crate::products::wording::{failure, proof};
+use crate::products::wording::{failure, verdict};
 use crate::text::line;
 
 /// Largest number of steps that do not stand and are drawn in addition to the governing step. A full report draws all
@@ -59,7 +58,7 @@ fn table(analysis: &Analysis) -> Grid {
             [
                 TableCell::picture(thumbnail(scene, &scene.frames[number].placed)),
                 format!("({}) {title}", letter(number)).into(),
-                TableCell::strong_if(frame_analysis.verdict != Verdict::Stable, plain(frame_analysis.verdict)),
+                TableCell::strong_if(frame_analysis.verdict != Verdict::Stable, frame_analysis.verdict.plain()),
                 headline.into(),
             ],
         );
@@ -102,7 +101,7 @@ fn failures(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
 
 fn proved(frame_analysis: &FrameAnalysis) -> Grid {
     let mut grid = Grid::new("The proof in numbers", &["what", "#how much"]);
-    for (what, much) in proof::numbers(frame_analysis.proof) {
+    for (what, much) in verdict::proof_numbers(frame_analysis.proof) {
         grid.add("", [what.to_owned(), much]);
     }
     grid

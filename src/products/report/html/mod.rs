@@ -16,7 +16,6 @@ pub(super) use part::section;
 use super::entry::{Row, Thumbnail};
 use super::head::{Head, OutputFile, STANDS_MEANING, sign, slug};
 use crate::mechanics::analysis::Verdict;
-use crate::products::wording::verdict::plain;
 use crate::text;
 
 const STYLE: &str = include_str!("../../../../assets/report/report.css");
@@ -134,7 +133,7 @@ fn refused(head: &Head<'_>) -> Markup {
 
 /// Writes a verdict with its mark: `✓ stands`.
 fn verdict(verdict: Verdict) -> Markup {
-    html! { span.verdict.(plain(verdict)) { span aria-hidden="true" { (sign(verdict)) } " " (plain(verdict)) } }
+    html! { span.verdict.(verdict.plain()) { span aria-hidden="true" { (sign(verdict)) } " " (verdict.plain()) } }
 }
 
 /// Writes the verdict of a scene, or both verdicts of a comparison, on one line.
@@ -188,13 +187,13 @@ fn line(row: &Row, link: &str, margins: bool) -> Markup {
         (stand, all) => format!(" {stand} of {all} steps stand"),
     };
     html! {
-        tr data-verdict=(plain(row.verdict)) {
+        tr data-verdict=(row.verdict.plain()) {
             td.picture { (thumbnail(&row.thumbnail)) }
             th scope="row" {
                 a href=(link) { bdi { (row.title) } }
                 span.file { (path(&row.name)) }
             }
-            td data-value=(plain(row.verdict)) {
+            td data-value=(row.verdict.plain()) {
                 (verdicts(row))
                 @if !steps.is_empty() { span.file { (steps) } }
             }

@@ -10,7 +10,6 @@ use crate::products::report::entry::{
     Badge, BarEnd, Chart, Entry, Figure, Grid, HoverTarget, MarginBar, Section, SheetPart, TableCell, touched,
 };
 use crate::products::wording::margin::Position;
-use crate::products::wording::verdict::plain;
 
 /// Tables with more rows are collapsed.
 const MAX_OPEN_ROWS: usize = 24;
@@ -29,7 +28,7 @@ pub(crate) fn section(entry: &Entry, number: usize) -> String {
         }
     };
     html! {
-        details.scene id=(format!("scene-{number}")) data-verdict=(plain(row.verdict)) {
+        details.scene id=(format!("scene-{number}")) data-verdict=(row.verdict.plain()) {
             summary {
                 (thumbnail(&row.thumbnail))
                 h2 { bdi { (row.title) } }
@@ -179,7 +178,7 @@ fn picture(drawing: &Drawing, mark: &str, touches: &[HoverTarget]) -> Markup {
 
 fn badge(badge: &Badge) -> Markup {
     html! {
-        div.badge.(plain(badge.verdict)) {
+        div.badge.(badge.verdict.plain()) {
             p.word { (verdict(badge.verdict)) }
             div {
                 @if !badge.headline.is_empty() { p.headline { strong { bdi dir="ltr" { (badge.headline) } } } }

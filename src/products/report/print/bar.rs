@@ -8,7 +8,6 @@ use crate::pictures::output::pdf::Role;
 use crate::products::report::entry::{Badge, BarEnd, MarginBar};
 use crate::products::report::head::sign;
 use crate::products::wording::margin::Position;
-use crate::products::wording::verdict::plain;
 
 /// Height of a bar, pixels.
 pub(super) const HEIGHT: f64 = 16.0;
@@ -164,7 +163,7 @@ impl Flow {
         self.add(Path::filled(panel(left + 5.0), ink));
         self.close(Role::Artifact);
         self.y = top + PADDING;
-        let word = format!("{} {}", sign(verdict), plain(verdict));
+        let word = format!("{} {}", sign(verdict), verdict.plain());
         let x = left + 18.0;
         self.put(&word, x, Face::SerifBold, 18.0, ink, Anchor::Start);
         self.close(Role::Paragraph);

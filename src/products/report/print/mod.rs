@@ -8,13 +8,13 @@ mod bar;
 mod flow;
 mod table;
 
+use flow::{Flow, HEADING_HEIGHT, MARGIN, PAGE_SIZE, SMALL_TEXT_SIZE};
+
 use super::entry::{Entry, SheetPart, overview};
 use super::head::{Head, ReportError, STANDS_MEANING};
 use crate::pictures::drawing::{Anchor, Drawing, Face, Group, PagePoint, PageRect, Text, Theme};
 use crate::pictures::output::pdf::{self, Bookmark, Content, Heading, Inset, Link, Role, Sheet};
-use crate::products::wording::verdict::plain;
 use crate::text::line;
-use flow::{Flow, HEADING_HEIGHT, MARGIN, PAGE_SIZE, SMALL_TEXT_SIZE};
 
 /// A section begins below the rest of the section before if this rest is lower than this, pixels.
 const MAX_REST: f64 = 80.0;
@@ -67,7 +67,7 @@ pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
 pub(super) fn section(entry: &Entry) -> Vec<Page> {
     let mut flow = Flow::new(foot(entry));
     let row = &entry.row;
-    let title = format!("{}: {}", row.title, plain(row.verdict));
+    let title = format!("{}: {}", row.title, row.verdict.plain());
     flow.title(&title, &entry.details);
     for (number, section) in entry.sections.iter().enumerate() {
         if section.begins_page {
@@ -83,7 +83,7 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
             ("", "") => {}
             ("", title) => flow.heading(title, 16.0, 3),
             (letter, title) => {
-                let words = format!("({letter}) {title}: {}", plain(section.verdict));
+                let words = format!("({letter}) {title}: {}", section.verdict.plain());
                 flow.heading(&words, 16.0, 3);
             }
         }

@@ -1,13 +1,11 @@
 //! [`governing`] states a frame's headline margin in a few words, for the line of the verdict below a picture, with the
-//! collapse at its limit.
+//! collapse at its limit; for a falling frame what it lacks to stand.
 
-use super::falls::lack;
-use super::list::{friction, stated};
-use super::{Parameter, StatedMargin, confirmed};
-use crate::mechanics::analysis::{End, FrameAnalysis, Motion, Verdict};
+use super::{Parameter, StatedMargin, confirmed, friction, stated};
+use crate::mechanics::analysis::{End, FrameAnalysis, Interval, Motion, Verdict};
 use crate::mechanics::scene::Scene;
-use crate::products::wording::case;
-use crate::products::wording::number::{digits, three_down, three_up};
+use crate::products::wording::number::{NO_BREAK, digits, three_down, three_up};
+use crate::products::wording::question;
 
 /// The needed friction is stated if it is at least this fraction of the present friction.
 const NEAR_FRICTION: f64 = 0.8;
@@ -41,7 +39,7 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
         },
         Verdict::Stable => reserves(scene, found, if loads == 1 { "load" } else { "loads" }),
     };
-    governing.words.extend(case::worst(found));
+    governing.words.extend(question::worst_case(found));
     governing
 }
 
@@ -138,5 +136,56 @@ fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> 
             Some((format!("stands up to a kernel of {}", three_down(kernel)), end))
         }
         Parameter::RobotForce(_) | Parameter::RobotTorque(_) => None,
+    }
+}
+
+/// Describes what a falling frame lacks to stand: `carries 33 % of its load`. Returns `None` if the frame stands or is
+/// undecided, or if no computed margin shows what is lacking.
+pub(super) fn lack(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
+    if frame_analysis.verdict != Verdict::Unstable {
+        return None;
+    }
+    let intervals = &frame_analysis.margins.as_ref()?.intervals;
+    let loads = intervals.load_factor.as_ref();
+    loads
+        .and_then(|interval| load_lack(scene, interval))
+        .or_else(|| friction_lack(frame_analysis, intervals.friction.as_ref()?))
+}
+
+/// Describes which fraction of its loads a falling frame carries, or how many times its loads it would need to stand.
+/// Returns `None` if neither is known.
+fn load_lack(scene: &Scene, interval: &Interval) -> Option<String> {
+    let mut entries: Vec<usize> = scene.loads.iter().map(|load| load.entry).collect();
+    entries.dedup();
+    let loads = match entries.len() {
+        1 => "load",
+        _ => "loads",
+    };
+    let [low, high] = [interval.low()?, interval.high()?].map(confirmed);
+    match (low, high) {
+        // Round down, so that the frame carries at least the written fraction.
+        (_, Some(high)) if high < 1.0 => Some(if high >= 0.01 {
+            format!("carries {}{NO_BREAK}% of its {loads}", three_down(100.0 * high))
+        } else {
+            format!("carries less than 1{NO_BREAK}% of its {loads}")
+        }),
+        (Some(low), _) if low > 1.0 => Some(format!("would need {} times its {loads}", three_up(low))),
+        _ => None,
+    }
+}
+
+/// Describes the friction coefficient with which a falling frame would stand, or states that no coefficient would hold
+/// it. Returns `None` if the smallest present coefficient is large enough, if the margin is undecided, or if there are
+/// no interfaces.
+fn friction_lack(frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<String> {
+    let (least, most) = friction(frame_analysis)?;
+    match interval {
+        Interval::Empty(_) => Some("no friction coefficient would hold it".to_owned()),
+        Interval::Undecided => None,
+        Interval::Between { low, .. } => {
+            let low = confirmed(low).filter(|low| *low > least)?;
+            let everywhere = if least < most { " at every joint" } else { "" };
+            Some(format!("would need friction {}{everywhere}", three_up(low)))
+        }
     }
 }

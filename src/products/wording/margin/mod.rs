@@ -3,20 +3,18 @@
 //!
 //! The terminal, tables, bars, captions and the headline all use [`StatedMargin`].
 
-mod falls;
 mod governing;
-mod list;
-mod range;
 
 #[cfg(any(feature = "report", feature = "cli"))]
 pub use governing::headline;
 pub use governing::{Governing, governing};
-pub use list::stated;
-pub use range::stands;
 
 use super::number::{amount, digits, three_down, three_up};
-use crate::mechanics::analysis::{End, FrameAnalysis, Interval, UNDECIDED};
+use crate::mechanics::analysis::{
+    End, Exclusion, FALLS, FrameAnalysis, Interval, Intervals, STANDS, UNDECIDED, Verdict,
+};
 use crate::mechanics::scene::{Scene, Unit};
+use crate::text;
 
 /// Smaller values of a parameter are rounding errors.
 const NOISE: f64 = 1e-9;
@@ -230,4 +228,196 @@ pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
     let notes = frame_analysis.margins.iter().flat_map(|margins| &margins.intervals.notes);
     lines.extend(notes.map(|note| format!("note: {note}")));
     lines
+}
+
+/// Describes at which values of a parameter the frame stands: `stands from 0.3 to 2.4`.
+pub fn stands(parameter: Parameter, interval: &Interval) -> String {
+    let (low, high) = match interval {
+        Interval::Between { low, high } => (low, high),
+        Interval::Empty(excluded) => {
+            let none = match parameter {
+                Parameter::LoadFactor => "stands under no multiple of its loads",
+                _ => "stands at no value",
+            };
+            return match conflict(excluded) {
+                Some([low, high]) => {
+                    let [low, high] = [low, high].map(|value| parameter.value(value));
+                    if parameter.is_signed() {
+                        format!("{none}: {FALLS} to the left of {low}, and {FALLS} to the right of {high}")
+                    } else {
+                        format!("{none}: {FALLS} below {low}, and {FALLS} above {high}")
+                    }
+                }
+                None => none.to_owned(),
+            };
+        }
+        Interval::Undecided => return format!("no verdict shows at which values it {STANDS}"),
+    };
+    let unconfirmed = [("lower", low), ("upper", high)].into_iter().filter_map(|(name, end)| {
+        let End::Unconfirmed { stands, beyond } = end else {
+            return None;
+        };
+        let value = |value: f64| parameter.value(value);
+        Some(if beyond.is_finite() {
+            let [stands, beyond] = [value(*stands), value(*beyond)];
+            format!(" ({name} end not confirmed: between {stands} and {beyond})")
+        } else {
+            format!(" ({name} end not confirmed: beyond {})", value(*stands))
+        })
+    });
+    let unconfirmed: String = unconfirmed.collect();
+    format!("{STANDS} {}{unconfirmed}", range(parameter, low, high))
+}
+
+/// Returns two values if two collapse motions together exclude all values of the parameter. The first motion excludes
+/// values below the first value, and the second motion excludes values above the second value.
+fn conflict(excluded: &[Exclusion]) -> Option<[f64; 2]> {
+    match excluded {
+        [below, above] if below.from.is_none() && above.to.is_none() => Some([below.to?, above.from?]),
+        _ => None,
+    }
+}
+
+/// Describes the values between the two ends of an interval: `from 0.3 to 2.4`.
+fn range(parameter: Parameter, low: &End, high: &End) -> String {
+    // If the parameter cannot be negative, do not write a lower end of 0.
+    let begins = |low: &f64| parameter.is_signed() || *low > 0.0;
+    let least = confirmed(low).filter(begins);
+    let most = confirmed(high);
+    let least_words = |value: f64| parameter.end(value, false);
+    let value = |value: f64| parameter.end(value, true);
+    // An interval that is shorter than the rounding is one value.
+    let is_one = |low: f64, high: f64| parameter.value(low) == parameter.value(high);
+    if parameter == Parameter::LoadFactor {
+        let factor = match (least, most) {
+            (None, None) => "any factor".to_owned(),
+            (None, Some(high)) => format!("at most {}", value(high)),
+            (Some(low), None) => format!("at least {}", least_words(low)),
+            (Some(low), Some(high)) if is_one(low, high) => parameter.value(low),
+            (Some(low), Some(high)) => format!("{} to {}", least_words(low), value(high)),
+        };
+        return format!("with its loads times {factor}");
+    }
+    match (least, most) {
+        (None, None) => "at any value".to_owned(),
+        (None, Some(high)) if parameter.is_signed() => {
+            format!("up to {}, without a limit to the left", value(high))
+        }
+        (Some(low), None) if parameter.is_signed() => {
+            format!("from {} on, without a limit to the right", least_words(low))
+        }
+        (None, Some(high)) => format!("up to {}", value(high)),
+        (Some(low), None) => format!("at {} and more", least_words(low)),
+        // If both ends have the same text, they are equal at the printed precision.
+        (Some(low), Some(high)) if is_one(low, high) => format!("only at {}", parameter.value(low)),
+        (Some(low), Some(high)) => format!("from {} to {}", least_words(low), value(high)),
+    }
+}
+
+/// Returns all computed margins of a frame. The most important margin, which the headline describes, comes first.
+pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<StatedMargin<'a>> {
+    let Some(margins) = &frame_analysis.margins else {
+        return Vec::new();
+    };
+    let intervals = &margins.intervals;
+    let position = match frame_analysis.verdict {
+        Verdict::Stable => Position::Inside,
+        Verdict::Unstable => Position::Outside,
+        Verdict::Undecided => Position::Unknown,
+    };
+    let mut list = whole_frame(scene, frame_analysis, intervals, position);
+    list.extend(robot_limits(scene, intervals, position));
+    if let Some(first) = most_important(&list) {
+        list[..=first].rotate_right(1);
+    }
+    list
+}
+
+/// Returns the computed margins that concern the whole frame: all except the limits of robots.
+fn whole_frame<'a>(
+    scene: &Scene,
+    frame_analysis: &FrameAnalysis,
+    intervals: &'a Intervals,
+    position: Position,
+) -> Vec<StatedMargin<'a>> {
+    use Parameter::{Friction, HorizontalLoad, Kernel, LoadFactor, Tilt};
+    let share = "horizontal load, as a share of the weights";
+    let all = [
+        (LoadFactor, "factor on the loads", &intervals.load_factor, 1.0),
+        (Friction, "friction coefficient", &intervals.friction, 0.0),
+        (Tilt, "tilt of gravity", &intervals.tilt, 0.0),
+        (HorizontalLoad, share, &intervals.horizontal_load, 0.0),
+        (Kernel, "safety kernel", &intervals.kernel, scene.kernel),
+    ];
+    let mut list = Vec::new();
+    for (parameter, name, interval, present) in all {
+        let Some(interval) = interval else {
+            continue;
+        };
+        let mut margin =
+            StatedMargin { parameter, name: name.to_owned(), interval, present: Some((present, present)), position };
+        if parameter == Friction {
+            margin.present = friction(frame_analysis);
+            margin.position = friction_position(interval, margin.present, position);
+        }
+        list.push(margin);
+    }
+    list
+}
+
+/// Returns the margins for the force and torque limits of each robot.
+fn robot_limits<'a>(scene: &Scene, intervals: &'a Intervals, position: Position) -> Vec<StatedMargin<'a>> {
+    let force = Parameter::RobotForce(scene.units.force());
+    let torque = Parameter::RobotTorque(scene.units.torque());
+    let mut list = Vec::new();
+    for robot in &intervals.robots {
+        let arm = &scene.robots[robot.robot.0];
+        let (id, limits) = (text::line(&arm.id), arm.limits);
+        let all = [
+            (force, "horizontal force", &robot.fx, limits.fx),
+            (force, "vertical force", &robot.fy, limits.fy),
+            (torque, "torque", &robot.torque, limits.torque),
+        ];
+        list.extend(all.map(|(parameter, name, interval, limit)| StatedMargin {
+            parameter,
+            name: format!("limit of the {name} of robot {id}"),
+            interval,
+            present: Some((limit, limit)),
+            position,
+        }));
+    }
+    list
+}
+
+/// Returns the index of the most important margin. This is the load factor if the list has it and the frame does not
+/// carry every multiple of its loads. Otherwise it is the margin with the smallest [`StatedMargin::reserve`]. Returns
+/// `None` for an empty list.
+fn most_important(list: &[StatedMargin<'_>]) -> Option<usize> {
+    let loads = list.iter().position(|m| m.parameter == Parameter::LoadFactor && !m.has_no_limit());
+    let reserves = list.iter().map(StatedMargin::reserve).enumerate();
+    loads.or_else(|| reserves.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(first, _)| first))
+}
+
+/// Returns the smallest and the largest friction coefficient of the frame's interfaces, or `None` if there are no
+/// interfaces.
+fn friction(frame_analysis: &FrameAnalysis) -> Option<(f64, f64)> {
+    let all = frame_analysis.contacts.iter().map(|contact| contact.interface.friction);
+    all.fold(None, |range, friction| match range {
+        None => Some((friction, friction)),
+        Some((low, high)) => Some((friction.min(low), friction.max(high))),
+    })
+}
+
+/// Returns the position of the present friction coefficients relative to the interval of the friction margin. This
+/// interval assumes one coefficient at all interfaces. `alike` is the result if all present coefficients are equal, or
+/// if there are no interfaces.
+fn friction_position(interval: &Interval, present: Option<(f64, f64)>, alike: Position) -> Position {
+    match present {
+        Some((low, high)) if low < high => match (interval.contains(low), interval.contains(high)) {
+            (true, true) => Position::Inside,
+            (false, false) if !matches!(interval, Interval::Undecided) => Position::Outside,
+            _ => Position::Unknown,
+        },
+        _ => alike,
+    }
 }

@@ -66,7 +66,7 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
         (Extrusion::Down, Shape::Curve(curve)) if !matches!(entity.kind, "LINE" | "ELLIPSE" | "SPLINE") => {
             // If the normal of a curve points down, its x axis points to the left, so the curve is mirrored. LINE,
             // ELLIPSE and SPLINE are not mirrored, because they always use the axes of the drawing.
-            Shape::Curve(curve.mapped(&crate::sources::import::affine::Affine::scale(-1.0, 1.0)))
+            Shape::Curve(curve.mapped(&crate::sources::import::subpath::Affine::scale(-1.0, 1.0)))
         }
         (Extrusion::Down, shape) => shape,
         (Extrusion::Other, _) => Shape::Unreadable("it does not lie in the plane of the drawing"),

@@ -3,7 +3,7 @@
 //! | step | file |
 //! |---|---|
 //! | 1. split the text into records of group codes and values | `record` |
-//! | 2. find the header, the layers, the blocks and the entities | `document` |
+//! | 2. find the header, the layers, the blocks and the entities | `record` |
 //! | 3. convert each entity to curves in its own coordinates | `entity`, `hatch` |
 //! | 4. insert blocks with their transform, and sort the curves by layer | `walk` |
 //! | 5. join open curves that meet into loops | `chain` |
@@ -12,9 +12,7 @@
 //! also be a material: a layer "granite" sets density and friction. Group codes are those of the AutoCAD DXF
 //! reference.
 
-mod bounds;
 mod chain;
-mod document;
 mod entity;
 mod hatch;
 mod record;
@@ -23,11 +21,11 @@ mod walk;
 
 use std::collections::BTreeMap;
 
-use super::draft::Draft;
-use super::naming::Naming;
-use super::scale::Scale;
-use document::Document;
+use record::Document;
 use walk::DxfWalk;
+
+use super::draft::{Draft, Scale};
+use super::naming::Naming;
 
 /// Reads a DXF file in text form into a draft in metres, with y up.
 ///

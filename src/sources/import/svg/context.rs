@@ -7,9 +7,8 @@ use svgtypes::AspectRatio;
 
 use super::style::Style;
 use super::viewport::{Viewport, fitted, length, view_box};
-use crate::sources::import::affine::Affine;
 use crate::sources::import::draft::Role;
-use crate::sources::import::subpath::Subpath;
+use crate::sources::import::subpath::{Affine, Subpath};
 
 /// The properties that an element inherits from the elements around it.
 #[derive(Clone)]

@@ -8,8 +8,8 @@ use super::style::Style;
 use super::viewport::Viewport;
 use super::walk::SvgWalk;
 use super::xml::{is, words};
-use crate::sources::import::affine::Affine;
 use crate::sources::import::draft::{FillRule, Part, PartGeometry, Role, Values};
+use crate::sources::import::subpath::Affine;
 
 const SCALE_ATTRIBUTE: &str = "data-drystone-scale";
 const ORIGIN_ATTRIBUTE: &str = "data-drystone-origin";

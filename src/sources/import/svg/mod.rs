@@ -27,10 +27,9 @@ use simplecss::{Rule, StyleSheet};
 use self::name::Lines;
 use self::walk::{MAX_DEPTH, SvgWalk};
 use self::xml::{is, words};
-use super::draft::Draft;
+use super::draft::{Draft, Scale};
 use super::limit::too_many;
 use super::naming::Naming;
-use super::scale::Scale;
 
 /// The largest number of comparisons of a part of the selector of a style rule with an element.
 const MAX_RULE_MATCHES: usize = 150_000_000;

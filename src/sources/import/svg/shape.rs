@@ -8,9 +8,9 @@ use super::remark::RemarkKind;
 use super::style::Fill;
 use super::walk::SvgWalk;
 use super::{element, name};
-use crate::sources::import::affine::Affine;
 use crate::sources::import::draft::{Part, PartGeometry, Role, Values};
 use crate::sources::import::limit::MAX_BODIES;
+use crate::sources::import::subpath::Affine;
 
 impl<'a, 'd> SvgWalk<'a, 'd> {
     /// Adds a shape to the draft, in metres. A hidden shape is left out, and a shape that cannot be read is reported.

@@ -6,7 +6,7 @@ use roxmltree::Node;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, ViewBox};
 
 use super::name::INKSCAPE_NAMESPACE;
-use crate::sources::import::affine::Affine;
+use crate::sources::import::subpath::Affine;
 
 /// Pixels per inch in CSS.
 const CSS_DPI: f64 = 96.0;

@@ -5,20 +5,17 @@ use std::collections::BTreeMap;
 use roxmltree::Node;
 use simplecss::StyleSheet;
 
-use super::MAX_RULE_MATCHES;
 use super::context::{Context, UseElement};
-use super::element;
 use super::name::{self, Lines};
 use super::remark::{MAX_LISTED_REMARKS, RemarkKind};
 use super::style::{self, Style};
 use super::viewport::{self, Viewport};
 use super::xml::{SVG, is, is_never_drawn};
+use super::{MAX_RULE_MATCHES, element};
 use crate::geometry::{Point, Vector};
-use crate::sources::import::affine::Affine;
-use crate::sources::import::draft::{Draft, Part, PartGeometry, Role};
+use crate::sources::import::draft::{Draft, Part, PartGeometry, Role, Scale};
 use crate::sources::import::naming::Naming;
-use crate::sources::import::scale::Scale;
-use crate::sources::import::subpath::Subpath;
+use crate::sources::import::subpath::{Affine, Subpath};
 
 const XLINK_NAMESPACE: &str = "http://www.w3.org/1999/xlink";
 /// An outline is as large as the page if its corners are this close to those of the page, as a share of its diagonal.

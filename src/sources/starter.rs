@@ -1,7 +1,44 @@
-//! [`Wall`], [`Tower`] and [`Doorway`]: structures of blocks with horizontal joints.
+//! Generates the scene files of common structures from their dimensions and numbers of blocks.
+//!
+//! These scene files are starting points for users (`drystone new arch`), benchmarks and tests. The coordinates of
+//! faces that touch are rounded to the same values, so rounding does not open any joint. Lengths are in metres, x
+//! points right, y up.
 
-use super::{STONE_DENSITY, block, floor, rectangle, rounded};
-use crate::mechanics::scene::format::{GripEntry, HoldEntry, Map, RobotEntry, SceneFile, StepEntry};
+use crate::mechanics::scene::format::{
+    BlockEntry, CellEntry, CellHalf, GridEntry, GridKind, GripEntry, GroundEntry, HoldEntry, Map, Pair, RobotEntry,
+    SceneFile, StepEntry,
+};
+
+/// Coordinates are rounded to this many significant digits of the smallest length of the structure. The numbers are
+/// short, and the rounding error is far smaller than any block.
+const SIGNIFICANT_DIGITS: f64 = 4.0;
+
+/// Rounds a coordinate, in metres, to the place of the fourth significant digit of `least`, the smallest length of the
+/// structure in metres.
+fn rounded(x: f64, least: f64) -> f64 {
+    let decimals = SIGNIFICANT_DIGITS - 1.0 - libm::floor(libm::log10(least));
+    let power = libm::pow(10.0, decimals.clamp(0.0, 15.0));
+    let whole = (x * power).round() / power;
+    // Adding 0 turns −0 into 0.
+    whole + 0.0
+}
+
+/// Returns the four corners of the rectangle with the opposite corners `from` and `to`, in metres.
+fn rectangle(from: Pair, to: Pair) -> Vec<Pair> {
+    vec![from, [to[0], from[1]], to, [from[0], to[1]]]
+}
+
+fn block(id: String, polygon: Vec<Pair>) -> BlockEntry {
+    BlockEntry { id: Some(id), polygon: Some(polygon), ..BlockEntry::default() }
+}
+
+/// Returns ground from x = `left` to x = `right`, in metres. It is `depth` metres thick, with its surface at y = 0.
+fn floor(left: f64, right: f64, depth: f64) -> GroundEntry {
+    GroundEntry { polygon: Some(rectangle([left, -depth], [right, 0.0])), ..GroundEntry::default() }
+}
+
+/// Density of stone, kg/m³.
+const STONE_DENSITY: f64 = 2500.0;
 
 /// A wall in running bond. Every second course has half bricks at its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -225,4 +262,129 @@ impl Doorway {
 /// Returns the id of a block in a jamb: `left 1`.
 fn jamb_block(side: &str, course: usize) -> String {
     format!("{side} {}", course + 1)
+}
+
+/// A semicircular arch of equal voussoirs on level ground.
+///
+/// A thin arch falls. With sufficient friction and many voussoirs, an arch stands if its thickness is at least 0.1075
+/// times the radius of its centre line.
+///
+/// # Example
+/// ```
+/// use drystone::{Analysis, Scene, analysis::Verdict, starter::Arch};
+/// let arch = |thickness| Scene::new(Arch { thickness, ..Arch::default() }.scene());
+/// assert_eq!(Analysis::new(&arch(0.4)?).verdict(), Verdict::Stable);
+/// assert_eq!(Analysis::new(&arch(0.15)?).verdict(), Verdict::Unstable);
+/// # Ok::<(), drystone::scene::SceneError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arch {
+    /// The number of voussoirs, at least 2.
+    pub voussoirs: usize,
+    /// Clear width, in metres.
+    pub span: f64,
+    /// The thickness from the inner to the outer face, in metres.
+    pub thickness: f64,
+    /// Friction coefficient.
+    pub friction: f64,
+}
+
+impl Default for Arch {
+    /// Returns an arch of 13 voussoirs with a clear width of 4 m, 0.4 m thick, with a friction coefficient of 0.7. It
+    /// stands.
+    fn default() -> Arch {
+        Arch { voussoirs: 13, span: 4.0, thickness: 0.4, friction: 0.7 }
+    }
+}
+
+impl Arch {
+    /// Returns a scene file with the arch on the ground, of stone with 2500 kg/m³.
+    pub fn scene(&self) -> SceneFile {
+        let (inner, outer) = (0.5 * self.span, 0.5 * self.span + self.thickness);
+        let least = self.thickness.min(self.span);
+        let joint = |number: usize, radius: f64| -> Pair {
+            // Both springings are at the height 0 exactly, without rounding errors.
+            let angle = match number {
+                0 => return [rounded(-radius, least), 0.0],
+                n if n == self.voussoirs => return [rounded(radius, least), 0.0],
+                n => core::f64::consts::PI * (1.0 - n as f64 / self.voussoirs as f64),
+            };
+            let (sin, cos) = libm::sincos(angle);
+            [rounded(radius * cos, least), rounded(radius * sin, least)]
+        };
+        let voussoir = |i: usize| {
+            let corners = vec![joint(i, inner), joint(i, outer), joint(i + 1, outer), joint(i + 1, inner)];
+            block((i + 1).to_string(), corners)
+        };
+        let aside = rounded(outer + self.thickness, least);
+        SceneFile {
+            title: Some(format!(
+                "A round arch of {} voussoirs over {} m, {} m thick",
+                self.voussoirs, self.span, self.thickness
+            )),
+            friction: Some(self.friction),
+            density: Some(STONE_DENSITY),
+            ground: vec![floor(-aside, aside, self.thickness)],
+            blocks: (0..self.voussoirs).map(voussoir).collect(),
+            ..SceneFile::default()
+        }
+    }
+}
+
+/// A pile of triangular cells that point up and down alternately. Each row has one upward triangle fewer than the row
+/// below.
+///
+/// Contacts on a lattice are computed exactly, from integer coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LatticePile {
+    /// The number of rows, which is also the number of triangles that stand on the ground.
+    pub rows: usize,
+    /// Edge length of a cell, in metres.
+    pub side: f64,
+    /// Friction coefficient.
+    pub friction: f64,
+}
+
+impl Default for LatticePile {
+    /// Returns a pile of 3 rows of triangles with edges of 1 m and a friction coefficient of 0.7. It stands.
+    fn default() -> LatticePile {
+        LatticePile { rows: 3, side: 1.0, friction: 0.7 }
+    }
+}
+
+impl LatticePile {
+    /// Returns a scene file with the pile on the ground, of stone with 2500 kg/m³.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::{Analysis, Scene, analysis::Verdict, starter::LatticePile};
+    /// let pile = |friction| Scene::new(LatticePile { friction, ..LatticePile::default() }.scene());
+    /// assert_eq!(pile(0.7)?.blocks().len(), 9);
+    /// assert_eq!(Analysis::new(&pile(0.7)?).verdict(), Verdict::Stable);
+    /// assert_eq!(Analysis::new(&pile(0.05)?).verdict(), Verdict::Unstable);
+    /// # Ok::<(), drystone::scene::SceneError>(())
+    /// ```
+    pub fn scene(&self) -> SceneFile {
+        let up = |x: usize, y: f64| CellEntry::Triangle(x as f64, y, CellHalf::Up);
+        let down = |x: usize, y: f64| CellEntry::Triangle(x as f64, y, CellHalf::Down);
+        let mut blocks = Vec::new();
+        for row in 0..self.rows {
+            let (count, y) = (self.rows - row, row as f64);
+            let cells = (0..count).map(|x| up(x, y)).chain((1..count).map(|x| down(x - 1, y + 1.0)));
+            for cell in cells {
+                blocks.push(BlockEntry { cells: Some(vec![cell]), ..BlockEntry::default() });
+            }
+        }
+        // The ground is a strip of cells below y = 0. On the right it extends one side length beyond the pile.
+        let strip = (0..=self.rows).flat_map(|x| [up(x, -1.0), down(x, 0.0)]);
+        SceneFile {
+            title: Some(format!("A pile of triangles in {} rows", self.rows)),
+            friction: Some(self.friction),
+            density: Some(STONE_DENSITY),
+            grid: Some(GridEntry { kind: GridKind::Triangular, side: Some(self.side) }),
+            ground: vec![GroundEntry { cells: Some(strip.collect()), ..GroundEntry::default() }],
+            blocks,
+            ..SceneFile::default()
+        }
+    }
 }

@@ -1,4 +1,5 @@
-//! [`Substructure`]: a selection of the bodies of an assembly. All other bodies are fixed.
+//! Parts of an assembly: [`Assembly::components`] splits it into parts that cannot influence each other, and a
+//! [`Substructure`] is a selection of its bodies, with all other bodies fixed.
 
 use super::{Assembly, AssemblyContact, AssemblyGrip};
 
@@ -58,34 +59,22 @@ impl Assembly {
     /// Returns the connected components of the bodies for which `member` is true, as lists of body indices in ascending
     /// order. Two bodies are connected if there is a contact between them.
     pub fn connected(&self, member: &[bool]) -> Vec<Vec<usize>> {
-        let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.len()];
+        let mut joined = DisjointSets::new(self.bodies.len());
         for contact in &self.contacts {
-            if let Some(from) = contact.from {
-                neighbours[contact.on].push(from);
-                neighbours[from].push(contact.on);
+            if let Some(from) = contact.from.filter(|from| member[*from] && member[contact.on]) {
+                joined.union(contact.on, from);
             }
         }
-        let mut seen = vec![false; self.bodies.len()];
-        let mut sets = Vec::new();
-        for first in (0..self.bodies.len()).filter(|k| member[*k]) {
-            if seen[first] {
-                continue;
+        // A set is named by its least member, which comes first.
+        let mut number_of_root = vec![0; self.bodies.len()];
+        let mut sets: Vec<Vec<usize>> = Vec::new();
+        for body in (0..self.bodies.len()).filter(|body| member[*body]) {
+            let root = joined.find(body);
+            if root == body {
+                number_of_root[root] = sets.len();
+                sets.push(Vec::new());
             }
-            // Find the component by breadth-first search from its first body.
-            seen[first] = true;
-            let mut set = vec![first];
-            let mut next = 0;
-            while let Some(body) = set.get(next).copied() {
-                next += 1;
-                for other in &neighbours[body] {
-                    if member[*other] && !seen[*other] {
-                        seen[*other] = true;
-                        set.push(*other);
-                    }
-                }
-            }
-            set.sort_unstable();
-            sets.push(set);
+            sets[number_of_root[root]].push(body);
         }
         sets
     }
@@ -109,5 +98,66 @@ impl AssemblyContact {
             }),
             (None, None) => None,
         }
+    }
+}
+
+impl Assembly {
+    /// Returns the connected components of the assembly, in the order of their first bodies.
+    ///
+    /// Two bodies are in one component if a chain of contacts connects them without passing through the ground. All
+    /// components keep the length L of the whole assembly, so that torques have the same weight in each of them.
+    pub fn components(&self) -> Vec<Assembly> {
+        let sets = self.connected(&vec![true; self.bodies.len()]);
+        // For each body: its component, and its index in this component.
+        let mut place = vec![(0, 0); self.bodies.len()];
+        let part = |(number, set): (usize, &Vec<usize>)| {
+            set.iter().enumerate().for_each(|(index, body)| place[*body] = (number, index));
+            let bodies = set.iter().map(|body| self.bodies[*body].clone()).collect();
+            Assembly { bodies, contacts: Vec::new(), grips: Vec::new(), ..*self }
+        };
+        let mut parts: Vec<Assembly> = sets.iter().enumerate().map(part).collect();
+        for contact in &self.contacts {
+            let (part, on) = place[contact.on];
+            parts[part].contacts.push(AssemblyContact { on, from: contact.from.map(|body| place[body].1), ..*contact });
+        }
+        for grip in &self.grips {
+            let (part, body) = place[grip.body];
+            parts[part].grips.push(AssemblyGrip { body, ..*grip });
+        }
+        parts
+    }
+
+    /// True if no body has a contact with the ground and no robot holds a body.
+    pub fn is_unsupported(&self) -> bool {
+        self.grips.is_empty() && self.contacts.iter().all(|c| c.from.is_some())
+    }
+}
+
+/// A partition of 0 … n − 1 into disjoint sets (union-find with path halving); each set is named by its least member.
+///
+/// Reference: Tarjan and van Leeuwen, Worst-Case Analysis of Set Union Algorithms, 1984.
+pub(crate) struct DisjointSets {
+    parent: Vec<usize>,
+}
+
+impl DisjointSets {
+    /// Creates `count` sets. Each contains one of the numbers 0 … `count` − 1.
+    pub fn new(count: usize) -> DisjointSets {
+        DisjointSets { parent: (0..count).collect() }
+    }
+
+    /// Returns the least member of the set that contains `number`.
+    pub fn find(&mut self, mut number: usize) -> usize {
+        while self.parent[number] != number {
+            self.parent[number] = self.parent[self.parent[number]];
+            number = self.parent[number];
+        }
+        number
+    }
+
+    /// Merges the sets that contain `one` and `other`.
+    pub fn union(&mut self, one: usize, other: usize) {
+        let (one, other) = (self.find(one), self.find(other));
+        self.parent[one.max(other)] = one.min(other);
     }
 }

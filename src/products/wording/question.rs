@@ -1,0 +1,306 @@
+//! Describes the answers to questions that a user or a scene asks about a frame beyond its verdict: load cases, how
+//! accurately blocks must be placed, which blocks may leave, what reaches a target, movements of supports, and vehicles.
+
+use super::failure::{pair, shortened};
+use super::number::{NO_BREAK, amount, counted, digits, listed, place, quantity, three, three_down, three_up};
+use crate::geometry::Point;
+use crate::mechanics::analysis::{
+    Analysis, CaseResult, Change, ChangeKind, Crack, Cracked, FrameAnalysis, Influence, MarginKind, MovementOutcome,
+    Placement, PlacementLimit, Reached, Removable, SupportMovement, VehiclePosition, Verdict,
+};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::text::line;
+
+/// Names the case to which the results of a frame belong; `None` if the scene has no cases.
+pub fn worst_case(found: &FrameAnalysis) -> Option<String> {
+    let cases = found.cases.as_ref()?;
+    let governing = &cases.each[cases.governing];
+    let word = if is_compared(governing) { "worst case" } else { "case" };
+    Some(format!("{word}: {}", line(&governing.id)))
+}
+
+/// True if a case is known to be the worst: it does not stand, or the margins of all cases were computed. Otherwise it is
+/// the first of several cases that stand.
+fn is_compared(governing: &CaseResult) -> bool {
+    governing.verdict != Verdict::Stable || governing.margins.is_some()
+}
+
+/// Returns a line for each case with its verdict and its margin, the worst case marked.
+pub fn case_lines(found: &FrameAnalysis) -> Vec<String> {
+    let Some(cases) = &found.cases else {
+        return Vec::new();
+    };
+    let mark = |number: usize| match is_compared(&cases.each[cases.governing]) {
+        _ if number != cases.governing => "",
+        true => " (the worst case)",
+        false => " (its forces are listed)",
+    };
+    let each = cases.each.iter().enumerate();
+    each.map(|(number, case)| format!("case {}: {}{}", line(&case.id), case_verdict(case), mark(number))).collect()
+}
+
+/// Returns the verdict of a case in words, with its load factor or its tilt if they were computed.
+pub fn case_verdict(case: &CaseResult) -> String {
+    let words = case.verdict.plain();
+    let Some(margins) = case.margins.as_ref().filter(|_| case.verdict == Verdict::Stable) else {
+        return words.to_owned();
+    };
+    match (margins.load_factor.at(), margins.tilt.left.at(), margins.tilt.right.at()) {
+        (Some(factor), ..) => format!("{words}, carries its loads times {}", three_down(factor)),
+        (None, Some(left), Some(right)) => {
+            format!("{words}, falls at {}° to the left, {}° to the right", three_down(left), three_down(right))
+        }
+        _ => words.to_owned(),
+    }
+}
+
+/// Writes a length in the unit of the scene, or in millimetres if the scene gives no unit, with a rounding to one side.
+pub fn placement_length(scene: &Scene, metres: f64, rounded: fn(f64) -> String) -> String {
+    let unit = scene.units.length();
+    if unit.is_chosen {
+        return format!("{} {}", rounded(unit.value_from_si(metres)), unit.symbol());
+    }
+    format!("{} mm", rounded(1e3 * metres))
+}
+
+/// States the proved placement tolerance in a few words, for figures.
+pub fn placement_proved(scene: &Scene, placement: &Placement) -> String {
+    format!("safe for all errors up to {}", placement_length(scene, placement.proved, three_down))
+}
+
+/// Describes the placement tolerance of a frame in one sentence without a full stop.
+pub fn placement_sentence(scene: &Scene, frame_analysis: &FrameAnalysis, placement: &Placement) -> String {
+    let stands = format!(
+        "stands for all errors up to {} (all blocks, their centres of gravity and their loads at once)",
+        placement_length(scene, placement.proved, three_down)
+    );
+    let falls = placement.falls_at.map(|at| {
+        let block = placement.block.map(|block| format!("; {} decides", scene.name(BodyId::Block(block))));
+        format!(
+            "; falls with a pattern of errors of {}{}",
+            placement_length(scene, at, three_up),
+            block.unwrap_or_default()
+        )
+    });
+    let joint = placement.joint.and_then(|joint| frame_analysis.contacts.get(joint));
+    let why = match placement.limited_by {
+        PlacementLimit::Balance => String::new(),
+        PlacementLimit::JointLength => match joint {
+            Some(contact) => {
+                format!("; beyond it the joint of {} has no length left", pair(scene, contact.interface.bodies))
+            }
+            None => "; beyond it a joint has no length left".to_owned(),
+        },
+        PlacementLimit::PointContact => "; a contact that acts at one point leaves no room for errors".to_owned(),
+        PlacementLimit::TooManyBlocks => "; the structure has too many blocks for this test".to_owned(),
+        PlacementLimit::Search => "; the search ended before the optimum".to_owned(),
+        PlacementLimit::TimeLimit => "; the time limit ended the search".to_owned(),
+    };
+    stands + &falls.unwrap_or_default() + &why
+}
+
+/// At most this many blocks are named.
+const MAX_FREE_NAMED: usize = 8;
+
+/// Says which blocks may leave, what helps the others, and which robots a falling frame needs: phrases without a full
+/// stop.
+pub fn removable_phrases(scene: &Scene, rows: &[Removable]) -> Vec<String> {
+    let name = |block: crate::mechanics::scene::BlockId| scene.blocks[block.0].id.as_str();
+    let force = |newtons: f64| quantity(newtons, scene.units.force());
+    let free = rows.iter().filter(|row| row.rest == Verdict::Stable);
+    let free: Vec<String> = free.map(|row| name(row.block).to_owned()).collect();
+    let mut phrases = vec![match free.len() {
+        0 => "no block may leave".to_owned(),
+        n => {
+            let of = counted(rows.len(), "block");
+            format!("{n} of {of} may leave alone: {}", listed(&shortened(free, MAX_FREE_NAMED)))
+        }
+    }];
+    let helped = rows.iter().filter_map(|row| Some((row.block, row.help?)));
+    if let Some((block, help)) = helped.clone().min_by(|a, b| a.1.force.total_cmp(&b.1.force)) {
+        phrases.push(format!(
+            "{} may leave while a robot holds another one: the least help is {} on {} for {}",
+            counted(helped.count(), "block"),
+            force(help.force),
+            name(help.block),
+            name(block)
+        ));
+    }
+    let held = rows.iter().filter(|row| row.force.is_some_and(|f| f > 0.0));
+    let held = held.map(|row| format!("{} on {}", row.force.map(force).unwrap_or_default(), name(row.block)));
+    let held: Vec<String> = held.collect();
+    if !held.is_empty() {
+        phrases.push(format!(
+            "it stands with a robot's force of at least {}",
+            shortened(held, MAX_FREE_NAMED).join(" or ")
+        ));
+    }
+    phrases
+}
+
+/// At most this many blocks of a motion are named.
+const MAX_MOVING_NAMED: usize = 4;
+
+/// Says with which changes the target is reached: one line for each, without a full stop.
+pub fn reach_lines(scene: &Scene, found: &Reached) -> Vec<String> {
+    let value = digits(found.target.value);
+    let target = match found.target.kind {
+        MarginKind::Tilt => format!("a tilt of {value}° to both sides"),
+        MarginKind::HorizontalLoad => format!("a horizontal load of {value} of the weights to both sides"),
+        _ => format!("{value} times its loads"),
+    };
+    let (enough, not): (Vec<&Change>, _) = found.changes.iter().partition(|change| change.least.is_some());
+    let head = match found.verdict {
+        Verdict::Stable => format!("it stands with {target} without a change"),
+        Verdict::Undecided => format!("it is undecided whether it stands with {target}"),
+        Verdict::Unstable if enough.is_empty() => format!("no single change suffices for {target}"),
+        Verdict::Unstable => format!("for {target}, each of these changes suffices alone:"),
+    };
+    let rows = enough.into_iter().chain(not).map(|change| reach_row(scene, change));
+    [format!("reach: {head}")].into_iter().chain(rows.map(|row| format!("  {row}"))).collect()
+}
+
+fn reach_row(scene: &Scene, change: &Change) -> String {
+    let name = |block: &BlockId| scene.blocks[block.0].id.clone();
+    let blocks = listed(&change.blocks.iter().map(name).collect::<Vec<_>>());
+    let Some(least) = change.least else {
+        let what = match change.what {
+            ChangeKind::Friction => "friction",
+            ChangeKind::Thickness => "thickness",
+            ChangeKind::Weight => "weight on one block",
+            ChangeKind::Hold => "force on one block",
+            ChangeKind::Tie => "tie between two blocks",
+            ChangeKind::Prop => "prop between two blocks",
+        };
+        let moving = shortened(change.mechanism.iter().map(|motion| name(&motion.block)).collect(), MAX_MOVING_NAMED);
+        let verb = if change.mechanism.len() == 1 { "moves" } else { "move" };
+        let why = if moving.is_empty() { String::new() } else { format!(": {} {verb} all the same", listed(&moving)) };
+        return format!("no {what} suffices{why}");
+    };
+    let unit = scene.units.force();
+    let force = match unit.is_chosen {
+        true => format!("{} {}", three_up(unit.value_from_si(least)), unit.symbol()),
+        false => quantity(least, unit),
+    };
+    match change.what {
+        ChangeKind::Friction => format!("friction {} at all joints", three_up(least)),
+        ChangeKind::Thickness => format!("{} times the thickness", three_up(least)),
+        ChangeKind::Weight => format!("{force} more weight on {blocks}"),
+        ChangeKind::Hold => format!("a force of {force} from outside that holds {blocks}"),
+        ChangeKind::Tie => format!("a tie of {force} between {blocks}"),
+        ChangeKind::Prop => format!("a prop of {force} between {blocks}"),
+    }
+}
+
+/// The largest number of joints that a sentence names.
+const MAX_NAMED_JOINTS: usize = 3;
+
+/// Describes a movement: `left moves by (−0.01, 0) m and turns by 0.2°`.
+pub fn movement(scene: &Scene, moved: &SupportMovement) -> String {
+    let movement = &scene.movements()[moved.number];
+    let by = (movement.translation.norm() > 0.0)
+        .then(|| format!("moves by {}", place(Point::from(movement.translation), scene.units())));
+    let turns = (movement.rotation != 0.0).then(|| format!("turns by {}°", digits(movement.rotation.to_degrees())));
+    let ways: Vec<String> = by.into_iter().chain(turns).collect();
+    format!("{} {}", scene.name(BodyId::Ground(movement.ground)), listed(&ways))
+}
+
+/// Writes the force of the structure on the support: `H = 190 N, V = −1000 N`.
+pub fn movement_force(scene: &Scene, cracked: &Cracked) -> String {
+    let unit = scene.units().force();
+    let written = [cracked.force.x, cracked.force.y].map(|amount| quantity(amount, unit));
+    format!("H{NO_BREAK}={NO_BREAK}{}, V{NO_BREAK}={NO_BREAK}{}", written[0], written[1])
+}
+
+/// Writes an amount per unit of the movement: `0.62 mm/mm`.
+pub fn per_unit(amount: f64) -> String {
+    format!("{}{NO_BREAK}mm/mm", three(amount))
+}
+
+/// Describes the joints that open or slide most.
+pub fn cracks(scene: &Scene, found: &FrameAnalysis, cracked: &Cracked) -> String {
+    let mut widest: Vec<&Crack> = cracked.cracks.iter().collect();
+    widest.sort_by(|a, b| b.opening.total_cmp(&a.opening).then(a.contact.cmp(&b.contact)));
+    let one = |crack: &&Crack| {
+        let names = pair(scene, found.contacts[crack.contact].interface.bodies);
+        let slides =
+            if crack.slip == 0.0 { String::new() } else { format!(" and slide {}", per_unit(crack.slip.abs())) };
+        format!("{names} open {}{slides}", per_unit(crack.opening))
+    };
+    let named: Vec<String> = widest.iter().take(MAX_NAMED_JOINTS).map(one).collect();
+    let more = widest.len().saturating_sub(MAX_NAMED_JOINTS);
+    let more = if more > 0 { format!("; {} more", counted(more, "joint")) } else { String::new() };
+    format!("{}{more}", listed(&named))
+}
+
+/// Returns one movement_sentence, without a full stop, about a movement of a support: the force on the support, and which joints
+/// open or slide and by how much.
+pub fn movement_sentence(scene: &Scene, found: &FrameAnalysis, moved: &SupportMovement) -> String {
+    let first = movement(scene, moved);
+    match &moved.outcome {
+        MovementOutcome::Follows(cracked) => format!(
+            "if {first}, the structure pushes it with {}; {} (small displacements; sliding also opens a joint)",
+            movement_force(scene, cracked),
+            cracks(scene, found, cracked)
+        ),
+        other => format!("if {first}, {}", without_state(other)),
+    }
+}
+
+/// Says why a structure does not follow.
+pub fn without_state(outcome: &MovementOutcome) -> &'static str {
+    match outcome {
+        MovementOutcome::Follows(_) => "the structure cracks and follows",
+        MovementOutcome::Jams => "rigid blocks cannot follow: the support would have to crush them",
+        MovementOutcome::Untouched => "no block touches it where it moves",
+        MovementOutcome::Unsolved => "the solver found no result",
+    }
+}
+
+/// Describes a position: `first axle at x = 3.2 m, travelling to the right, on A4`.
+pub fn vehicle_position(scene: &Scene, position: &VehiclePosition) -> String {
+    let mut blocks: Vec<String> = position.axles.iter().map(|axle| scene.blocks()[axle.1.0].id.clone()).collect();
+    blocks.dedup();
+    let toward = match scene.vehicle() {
+        Some(vehicle) if vehicle.axles.len() > 1 && position.to_right => ", travelling to the right",
+        Some(vehicle) if vehicle.axles.len() > 1 => ", travelling to the left",
+        _ => "",
+    };
+    format!("first axle at x = {}{toward}, on {}", amount(position.at, scene.units().length()), listed(&blocks))
+}
+
+/// States the least factor in a few words: `carries 2.31 times the vehicle`.
+pub fn vehicle_factor(influence: &Influence) -> String {
+    match influence.governing.and_then(|number| influence.positions[number].factor) {
+        None => "carries any multiple of the vehicle".to_owned(),
+        Some(factor) if factor < 1.0 => {
+            format!(
+                "falls under the vehicle, and stands only without it: it carries {} times its weight",
+                three_down(factor)
+            )
+        }
+        Some(factor) => format!("carries {} times the vehicle", three_down(factor)),
+    }
+}
+
+/// Describes the governing position of a vehicle in one sentence without a full stop.
+pub fn vehicle_sentence(scene: &Scene, influence: &Influence) -> String {
+    let count = counted(influence.positions.len(), "position");
+    let governing = influence.governing.map(|number| vehicle_position(scene, &influence.positions[number]));
+    let at = governing.map_or(String::new(), |at| format!("; it governs with the {at}"));
+    format!("{}{at} ({count})", vehicle_factor(influence))
+}
+
+/// Describes the range of the horizontal thrust at the supports of a frame (numbered from 0) in a sentence without a full
+/// stop. `None` if there is no single thrust, or if it would take too long to compute
+/// ([`Analysis::thrust_states`]).
+pub fn thrust_range(analysis: &Analysis, frame: usize) -> Option<String> {
+    let states = analysis.thrust_states(frame);
+    let force = |thrust: f64| quantity(thrust, analysis.scene.units.force());
+    let (least, greatest) = (force(states.least?.thrust), states.greatest.map(|state| force(state.thrust)));
+    Some(match greatest {
+        Some(greatest) if greatest == least => format!("The horizontal thrust is {least} in all of them"),
+        Some(greatest) => format!("The horizontal thrust H may lie between {least} and {greatest}"),
+        None => format!("The horizontal thrust H is at least {least}"),
+    })
+}
