@@ -12,7 +12,7 @@ use super::option::ArrowScale;
 use super::panel::{About, Figure};
 use super::parallel_arrows::separate_parallel_arrows;
 use super::placing::Label;
-use super::{description, joint_forces, stage};
+use super::{description, joint_forces, load, stage};
 use crate::mechanics::scene::BodyId;
 use crate::pictures::drawing::{self, Colour, Face, Outline, PagePoint, Path, Stroke, text};
 use crate::products::wording::number::{quantity, round_below_in};
@@ -62,7 +62,7 @@ impl Figure for BlockArrows {
             arrows(canvas, largest);
         }
         stage::robots(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         joint_forces::missing(canvas);
         if !canvas.found().failures.is_empty() {
             canvas.note(75, "arrows and colours show the balance with the missing forces");

@@ -19,7 +19,7 @@ use super::fall::Fall;
 use super::option::Options;
 use super::panel::{About, Figure, Subject};
 use super::placing::Label;
-use super::stage;
+use super::{load, stage};
 use crate::geometry::{Bounds, Point, in_half_plane};
 use crate::mechanics::analysis::{Analysis, CapacityShape};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
@@ -81,7 +81,7 @@ impl Figure for CarriedForces {
         stage::ground(canvas);
         stage::blocks(canvas);
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         canvas.mentioned.extend(canvas.found().capacity.iter().map(|capacity| capacity.block));
         if let Some(plan) = Plan::new(canvas.analysis, canvas.number) {
             let before = canvas.number.checked_sub(1);

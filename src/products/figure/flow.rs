@@ -17,7 +17,7 @@ use super::bearing::bearings;
 use super::canvas::Canvas;
 use super::design::{Key, Layer, Look, Mark, unit};
 use super::panel::{About, Figure, View};
-use super::{joint_forces, stage};
+use super::{joint_forces, load, stage};
 use crate::mechanics::analysis::{FrameAnalysis, Verdict};
 use crate::mechanics::scene::BodyId;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Stroke, Theme};
@@ -68,7 +68,7 @@ impl Figure for ForceFlow {
         label(canvas);
         stage::held(canvas);
         stage::robot_limits(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         joint_forces::missing(canvas);
         stage::names(canvas);
     }

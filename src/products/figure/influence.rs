@@ -7,12 +7,13 @@
 use super::canvas::Canvas;
 use super::design::{ArrowSize, Key, Layer, Mark};
 use super::fall::Fall;
+use super::load::{hollow, load_size};
 use super::margin::ghosts;
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::stage::{self, hollow, load_size};
-use super::{gives, sheet};
+use super::stage;
+use super::{gives, load, sheet};
 use crate::geometry::quarter_turn;
 use crate::mechanics::analysis::{Analysis, Influence, VehiclePosition, Verdict};
 use crate::pictures::drawing::{Drawing, Outline, PagePoint, Path, Stroke};
@@ -67,7 +68,7 @@ impl Figure for InfluenceLine {
         stage::ground(canvas);
         stage::blocks(canvas);
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         let (analysis, number) = (canvas.analysis, canvas.number);
         if let Some(influence) = &canvas.found().vehicle {
             if canvas.options.motion_progress >= 1.0 && !influence.mechanism.is_empty() {

@@ -12,7 +12,7 @@ use super::gives::{self, Gives, How};
 use super::option::{Fill, ForceStyle, Normalisation, Options};
 use super::panel::{About, Figure, View};
 use super::placing::Label;
-use super::stage;
+use super::{load, stage};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis, Motion};
 use crate::mechanics::scene::{BodyId, Scene};
@@ -54,7 +54,7 @@ impl Figure for JointForces {
             canvas.note(70, "weights not drawn");
         }
         stage::robots(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         missing(canvas);
         if !canvas.look.is_strip {
             collapse(canvas);
@@ -118,7 +118,7 @@ fn scale(view: &View<'_>, look: Look) -> f64 {
             let polygon = &scene.blocks[id.0].body.polygon;
             let reach = polygon.bounds().diagonal();
             let way = force * (sign / norm);
-            let chord = view.zoom * stage::inside_length(polygon.rings(), at + way * (1e-6 * reach), way * reach);
+            let chord = view.zoom * load::inside_length(polygon.rings(), at + way * (1e-6 * reach), way * reach);
             if chord > look.mm(0.5) {
                 candidates.push(0.45 * chord / norm);
             }

@@ -8,7 +8,7 @@ use super::canvas::Canvas;
 use super::design::{Key, Layer, Mark, unit};
 use super::option::Options;
 use super::panel::{About, Figure};
-use super::{stage, verdict};
+use super::{load, stage, verdict};
 use crate::geometry::Point;
 use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
@@ -59,7 +59,7 @@ impl Figure for Kernel {
         safe_parts(canvas);
         resultants(canvas);
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         stage::names(canvas);
     }
 }

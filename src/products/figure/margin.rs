@@ -13,7 +13,7 @@ use super::fall::Fall;
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::{gives, stage};
+use super::{gives, load, stage};
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
 use crate::mechanics::analysis::{Analysis, End, Toward, Verdict};
 use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, Path, Stroke, text};
@@ -56,7 +56,7 @@ impl Figure for CollapseMargin {
         stage::ground(canvas);
         stage::blocks(canvas);
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         let stands = canvas.found().verdict == Verdict::Stable;
         let edge = canvas.own().edge.get_or_init(|| analysis.edge(frame, toward).filter(|_| stands));
         if let Some((edge, motions)) = edge {

@@ -16,7 +16,7 @@ use super::displacement::Course;
 use super::fall::{Fall, Joint};
 use super::option::Options;
 use super::panel::{About, Figure};
-use super::{collapse, description, gives, stage};
+use super::{collapse, description, gives, load, stage};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, MarginKind, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId};
 use crate::pictures::drawing::{Outline, Path, Stroke};
@@ -77,7 +77,7 @@ impl Figure for Mechanism {
         ghosts(canvas);
         displaced(canvas);
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         if canvas.found().verdict == Verdict::Unstable {
             let all: Vec<Joint> =
                 (0..analysis.frames.len()).flat_map(|frame| Fall::of(analysis, frame).joints).collect();

@@ -13,7 +13,7 @@ use super::mechanism::{displaced_blocks, ghosts, present_edge};
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::stage;
+use super::{load, stage};
 use crate::mechanics::analysis::{Analysis, Crack, Cracked, Motion, MovementOutcome, SupportMovement, Verdict};
 use crate::mechanics::scene::{Block, BlockId, BodyId, Movement, Scene};
 use crate::pictures::drawing::{Outline, Path, Stroke};
@@ -71,7 +71,7 @@ impl Figure for MovedSupport {
             stage::blocks(canvas);
         }
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         stage::names(canvas);
     }
 }

@@ -6,7 +6,7 @@ use super::design::{Key, Layer, Mark};
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::stage;
+use super::{load, stage};
 use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::analysis::{Analysis, Placement, Verdict};
 use crate::mechanics::scene::Scene;
@@ -62,7 +62,7 @@ impl Figure for PlacementTolerance {
             whiskers(canvas, placement);
         }
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         stage::names(canvas);
     }
 }

@@ -14,7 +14,7 @@ use super::design::{ArrowSize, Key, Layer, Look, Mark, along, direction, unit};
 use super::option::Options;
 use super::panel::{About, Figure, Subject, View};
 use super::placing::Label;
-use super::stage;
+use super::{load, stage};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanics::analysis::{Analysis, Failure, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId, ForceCause, RobotId};
@@ -139,7 +139,7 @@ impl Figure for ForcePolygon {
         let sides = sides(canvas.analysis, canvas.number);
         at_structure(canvas, &sides);
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         stage::names(canvas);
         if canvas.options.zoom.is_none() {
             polygon(canvas, &sides);

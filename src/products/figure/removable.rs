@@ -6,7 +6,7 @@ use super::design::{Key, Layer, Mark};
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::stage;
+use super::{load, stage};
 use crate::mechanics::analysis::{Analysis, Removable, Verdict};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
 use crate::products::wording::number::quantity;
@@ -53,7 +53,7 @@ impl Figure for RemovableBlocks {
             block(canvas, row, states_amounts);
         }
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         stage::names(canvas);
     }
 }

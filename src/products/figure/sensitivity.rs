@@ -13,7 +13,7 @@ use super::design::{ArrowSize, Key, Layer, Mark, along, unit};
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::stage;
+use super::{load, stage};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanics::analysis::{Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope};
 use crate::mechanics::scene::Scene;
@@ -72,7 +72,7 @@ impl Figure for CornerEffects {
         stage::ground(canvas);
         stage::blocks(canvas);
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         if let Some(plan) = Plan::new(canvas.analysis, canvas.number, canvas.options) {
             arrows(canvas, &plan);
             rings(canvas, &plan);

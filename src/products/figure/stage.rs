@@ -1,4 +1,4 @@
-//! Draws what every kind of figure shows: the ground, the blocks, the planned blocks, the robots and the loads.
+//! Draws what every kind of figure shows: the ground, the blocks, the planned blocks and the robots.
 
 use std::rc::Rc;
 
@@ -6,15 +6,12 @@ use super::bearing::robots_reached;
 use super::canvas::Canvas;
 use super::design::{ArrowSize, Key, Layer, Mark, along, colour, direction, overlaps};
 use super::placing::Label;
-use crate::geometry::{Bounds, Edge, Lattice, Point, Vector};
-use crate::mechanics::scene::{BlockId, Body, BodyId, Hold, Load, Scene};
+use crate::geometry::{Bounds, Edge, Lattice};
+use crate::mechanics::scene::{BlockId, Body, BodyId, Hold, Scene};
 use crate::pictures::drawing::{Camera, Colour, Face, Outline, PagePoint, PageRect, Path, Stroke, arrow, text};
 use crate::products::wording::number::{force, quantity, round_below_in};
 
-/// At most about this many loads have amounts, the largest.
-const MAX_LOAD_AMOUNTS: usize = 16;
 /// The ranks of the entries of the legend that this module explains.
-const LOAD_RANK: u8 = 40;
 const PLAN_RANK: u8 = 45;
 const LIMIT_RANK: u8 = 62;
 
@@ -191,148 +188,6 @@ pub(crate) fn names(canvas: &mut Canvas<'_>) {
             canvas.label(Label { inside, is_mentioned, ..label });
         }
     }
-}
-
-/// Draws the loads of the frame as hollow arrows in one scale, each with its amount. The tip of an arrow is on the point
-/// of the load if the side before the point is freer of blocks than the side after it; otherwise the arrow hangs from
-/// the point.
-pub(crate) fn loads(canvas: &mut Canvas<'_>) {
-    let (scene, placed) = (canvas.scene(), &canvas.frame().placed);
-    super::pressure::diagrams(canvas);
-    let loads = scene.loads_on(placed);
-    let all = scene.loads_on(&shown_blocks(scene)).into_iter().map(|load| load.force.norm());
-    let largest = all.fold(0.0, f64::max);
-    let longest = canvas.scale * largest;
-    let fits = (canvas.mm(5.0)..=canvas.mm(11.0)).contains(&longest);
-    let scale = if fits { canvas.scale } else { canvas.mm(7.5) / largest };
-    let ink = canvas.theme().load;
-    let mut amounts: Vec<f64> = loads.iter().map(|load| load.force.norm()).collect();
-    amounts.sort_by(|a, b| b.total_cmp(a));
-    let least = amounts.get(MAX_LOAD_AMOUNTS - 1).copied().unwrap_or(0.0);
-    let words = match loads.len() {
-        1 => "load".to_owned(),
-        count if count > MAX_LOAD_AMOUNTS => "loads, amounts only at the largest".to_owned(),
-        _ => "loads".to_owned(),
-    };
-    let size = ArrowSize { length: canvas.mm(5.0), ..load_size(canvas) };
-    let mut symbol = vec![hollow(canvas, size.outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink)];
-    if loads.iter().any(|load| load.force.norm() > 0.0 && acts_inside(canvas, load)) {
-        symbol.push(Path::filled(Outline::circle(PagePoint::new(canvas.mm(5.0), 0.0), canvas.mm(0.5)), ink));
-    }
-    let key = Key::new(LOAD_RANK, words, symbol, canvas.mm(5.5));
-    for load in &loads {
-        if load.force.norm() > 0.0 {
-            one_load(canvas, load, scale, &key, load.force.norm() >= least);
-        }
-        if load.torque != 0.0 {
-            let at = canvas.place_on(BodyId::Block(load.block), load.at);
-            let units = scene.units.torque();
-            let on = scene.name(BodyId::Block(load.block));
-            let title =
-                format!("Torque of a load on block {on}: {}", turning(load.torque, quantity(load.torque.abs(), units)));
-            // Torques at one point have arcs with different radii.
-            let turns = loads.iter().take_while(|other| !core::ptr::eq(*other, load));
-            let here = turns.filter(|other| other.torque != 0.0 && (other.at - load.at).norm() < 1e-6).count();
-            let radius = 2.6 + 1.5 * here as f64;
-            let mark = torque(canvas, at, load.torque, (radius, 0.45), ink);
-            canvas.put(Mark::new(Layer::Load, "torque", mark).titled(title).avoided(canvas.mm(0.2)));
-            let side = at.moved(canvas.mm(radius + 0.4), 0.0);
-            let words = named(scene, load, quantity(load.torque.abs(), units));
-            amount(canvas, words, ink, (vec![side], 0), Some((0.0, -1.0)));
-        }
-    }
-}
-
-/// True if a load acts inside its block, visibly away from its edges. A dot then marks the point.
-fn acts_inside(canvas: &Canvas<'_>, load: &Load) -> bool {
-    let polygon = &canvas.scene().blocks[load.block.0].body.polygon;
-    let deep = polygon.edges().all(|edge| canvas.camera.length(edge.distance(load.at)) > canvas.mm(0.6));
-    deep && polygon.contains(load.at)
-}
-
-pub(super) fn load_size(canvas: &Canvas<'_>) -> ArrowSize {
-    ArrowSize { length: 0.0, shaft: canvas.mm(0.85), head: (canvas.mm(1.9), canvas.mm(1.7)) }
-}
-
-pub(super) fn hollow(canvas: &Canvas<'_>, outline: Outline, ink: Colour) -> Path {
-    Path::filled(outline, canvas.theme().page).with_stroke(Stroke::new(ink, canvas.mm(0.32)).mitred())
-}
-
-fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>, has_amount: bool) {
-    let (scene, ink) = (canvas.scene(), canvas.theme().load);
-    let norm = load.force.norm();
-    let u = direction(load.force);
-    let length = (scale * norm).max(canvas.mm(3.0));
-    let at = canvas.place(load.at);
-    let stone = |from: f64, to: f64| stone_length(canvas, [along(at, u, from, 0.0), along(at, u, to, 0.0)]);
-    let (before, after) = (stone(-length, -canvas.mm(0.05)), stone(canvas.mm(0.05), length));
-    let ends = before <= after + canvas.mm(0.3);
-    // The side is that of the block where it stands; the arrow moves with the block.
-    let at = canvas.place_on(BodyId::Block(load.block), load.at);
-    let tail = if ends { along(at, u, -length, 0.0) } else { at };
-    let outline = ArrowSize { length, ..load_size(canvas) }.outline(tail, u);
-    let mut shapes = vec![hollow(canvas, outline, ink)];
-    if acts_inside(canvas, load) {
-        shapes.push(Path::filled(Outline::circle(at, canvas.mm(0.5)), ink));
-    }
-    let title = format!("Load on block {}: {}", scene.name(BodyId::Block(load.block)), force(load.force, scene.units));
-    canvas.put(Mark::new(Layer::Load, "load", shapes).titled(title).keyed(key).avoided(canvas.mm(0.2)));
-    if !has_amount {
-        return;
-    }
-    let far = if ends { tail } else { along(at, u, length, 0.0) };
-    let away = if ends { (-u.0, -u.1) } else { u };
-    let anchors = vec![far, along(tail, u, length / 2.0, 0.0)];
-    amount(canvas, named(scene, load, quantity(norm, scene.units.force())), ink, (anchors, 0), Some(away));
-}
-
-/// Writes the id of a load, if the file gives one, before its amount.
-fn named(scene: &Scene, load: &Load, amount: String) -> String {
-    match scene.load_id(load) {
-        Some(id) => format!("{id}: {amount}"),
-        None => amount,
-    }
-}
-
-/// Returns the length of the part of a line segment that lies in placed blocks, pixels.
-fn stone_length(canvas: &Canvas<'_>, [from, to]: [PagePoint; 2]) -> f64 {
-    let scene = canvas.scene();
-    let [start, end] = [from, to].map(|p| canvas.camera.back(p));
-    let blocks = canvas.frame().placed.iter().map(|id| &scene.blocks[id.0].body.polygon);
-    let metres: f64 = blocks.map(|polygon| inside_length(polygon.rings(), start, end - start)).sum();
-    canvas.camera.length(metres)
-}
-
-/// Returns the length of the part of the segment from `start` along `way` that lies inside the rings, metres.
-pub(crate) fn inside_length(rings: &[Vec<Point>], start: Point, way: Vector) -> f64 {
-    let parts = parts(rings, start, way).into_iter().filter(|part| part.1);
-    parts.map(|([from, to], _)| to - from).sum::<f64>() * way.norm()
-}
-
-/// Divides the segment from `start` along `way` where it crosses the rings. Returns each part with the shares of `way` at
-/// which it begins and ends, and whether it lies inside the rings.
-pub(crate) fn parts(rings: &[Vec<Point>], start: Point, way: Vector) -> Vec<([f64; 2], bool)> {
-    let mut cuts = vec![0.0, 1.0];
-    let mut inside = false;
-    for ring in rings {
-        for i in 0..ring.len() {
-            let (a, b) = (ring[i] - start, ring[(i + 1) % ring.len()] - start);
-            let (left, right) = (way.x * a.y - way.y * a.x, way.x * b.y - way.y * b.x);
-            if (left >= 0.0) == (right >= 0.0) {
-                continue;
-            }
-            let hit = a + (b - a) * (left / (left - right));
-            let share = hit.dot(&way) / way.norm_squared();
-            if share <= 0.0 {
-                inside = !inside;
-            } else if share < 1.0 {
-                cuts.push(share);
-            }
-        }
-    }
-    cuts.sort_by(f64::total_cmp);
-    let part = |(number, ends): (usize, &[f64])| ([ends[0], ends[1]], inside != (number % 2 == 1));
-    cuts.windows(2).enumerate().map(part).collect()
 }
 
 /// Asks for the label with the amount of a mark. `anchors` are the points beside which it may stand, and the rank.

@@ -2,7 +2,7 @@
 
 use super::canvas::Canvas;
 use super::panel::{About, Figure};
-use super::stage;
+use super::{load, stage};
 
 /// The figure of a structure without its solution.
 pub(crate) struct Structure;
@@ -23,7 +23,7 @@ impl Figure for Structure {
         stage::blocks(canvas);
         stage::listed_contacts(canvas);
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         stage::names(canvas);
     }
 }

@@ -22,7 +22,7 @@ use super::design::{Key, Layer, Mark, unit};
 use super::funicular::{ForceOrigin, ThrustSegment, segments};
 use super::option::Options;
 use super::panel::{About, Figure, Subject};
-use super::stage;
+use super::{load, stage};
 use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict};
 use crate::mechanics::scene::BodyId;
 use crate::mechanics::statics::interface::ContactKind;
@@ -84,7 +84,7 @@ impl Figure for ThrustLine {
         lines(canvas, &found, &segments, &keys);
         dots(canvas, &found, &keys);
         stage::held(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         let has_fan = canvas.options.with_polygon && found.verdict == Verdict::Stable && fan::draw(canvas, &found);
         stage::names(canvas);
         if states.central.is_some() {
@@ -283,7 +283,7 @@ fn lines(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, segments: &[ThrustSegme
         let mut key = key;
         if segment.leaves {
             let rings = scene.blocks[segment.on.0].body.polygon.rings();
-            let outside = stage::parts(rings, start, way).into_iter().filter(|part| !part.1);
+            let outside = load::parts(rings, start, way).into_iter().filter(|part| !part.1);
             shapes.extend(outside.map(|(ends, _)| line(canvas, ends, theme.failure)));
             key = &keys.leaves;
         }

@@ -11,7 +11,7 @@ use super::canvas::Canvas;
 use super::design::{Key, Layer, Mark, unit};
 use super::option::Options;
 use super::panel::{About, Figure};
-use super::{stage, verdict};
+use super::{load, stage, verdict};
 use crate::mechanics::analysis::{Analysis, Contact, MarginKind, Verdict};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::pictures::drawing::{Outline, PagePoint, Path, Stroke};
@@ -65,7 +65,7 @@ impl Figure for Utilisation {
         look.interfaces(canvas);
         stage::held(canvas);
         look.robots(canvas);
-        stage::loads(canvas);
+        load::loads(canvas);
         stage::names(canvas);
     }
 }

@@ -14,7 +14,7 @@ use crate::products::figure::canvas::Canvas;
 use crate::products::figure::design::{ArrowSize, along, unit};
 use crate::products::figure::option::Corners;
 use crate::products::figure::parallel_arrows::{Lane, shifts};
-use crate::products::figure::stage;
+use crate::products::figure::{load, stage};
 
 /// Length of the longest arrow, mm.
 const MAX_LENGTH: f64 = 12.0;
@@ -250,8 +250,7 @@ impl<'c, 'a> Arrows<'c, 'a> {
     fn pushes(&self, load: &Force, length: f64) -> bool {
         let rings = self.canvas.scene().blocks[self.body.block.0].body.polygon.rings();
         let way = load.force * (self.canvas.camera.metres(length) / load.force.norm());
-        stage::inside_length(rings, load.at, way * -1.0)
-            <= stage::inside_length(rings, load.at, way) + 1e-9 * way.norm()
+        load::inside_length(rings, load.at, way * -1.0) <= load::inside_length(rings, load.at, way) + 1e-9 * way.norm()
     }
 
     /// Returns the arrows that name the forces at each corner of an interface: a normal force, and one friction force
