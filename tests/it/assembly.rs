@@ -207,7 +207,7 @@ fn components_contain_every_body_contact_and_grip_once_and_effects_count_all_unk
                 let program = Program::new(part, Scale::from_assembly(part));
                 let all = columns(&program);
                 unknowns += all.len();
-                let count = UnknownCounts::new(&program, &all);
+                let count = UnknownCounts::new(&program);
                 assert_eq!(
                     [
                         EffectName::Contact,

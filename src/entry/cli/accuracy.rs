@@ -56,7 +56,7 @@ impl Accuracy {
         let scenes: Vec<Scene> = sources
             .iter()
             .map(|source| {
-                let mut scene = source.scene.clone();
+                let mut scene = Scene::clone(&source.scene);
                 if scene.title.is_empty() {
                     scene.title = source.stem();
                 }

@@ -2,6 +2,7 @@
 
 use std::io;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
@@ -76,7 +77,7 @@ impl Check {
         for (number, (path, outcome)) in outcomes.into_iter().enumerate() {
             match outcome {
                 // A scene without a block that an option names is refused before any scene is analysed.
-                Ok(mut source) => match self.choose_blocks(&mut source.scene) {
+                Ok(mut source) => match self.choose_blocks(Arc::make_mut(&mut source.scene)) {
                     Ok(_) => sources.push((number, source)),
                     Err(why) => refused.push((number, path, why.into())),
                 },
@@ -168,7 +169,7 @@ impl Check {
             let kinds = figure::cheap_margins(&source.scene);
             options = kinds.map_or(options, |kinds| options.margins(true).margin_kinds(kinds));
         }
-        let mut analysis = self.what.analysed(&source.scene, &options);
+        let mut analysis = self.what.analysed(source.scene.clone(), &options);
         if let Some(output) = &self.certificate {
             if !source.scene.cases().is_empty() {
                 let why = "--certificate writes no load cases; write each case as a scene of its own".to_owned();

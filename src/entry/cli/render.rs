@@ -277,9 +277,9 @@ impl Render {
 
     /// Returns the scene as the figure shows it: with code points instead of characters that no font has, if drystone
     /// lays out its text.
-    fn shown(&self, source: &Source, format: Format, fonts: &Fonts) -> Scene {
+    fn shown(&self, source: &Source, format: Format, fonts: &Fonts) -> Arc<Scene> {
         if self.draw.picture.draws_words(format) {
-            missing_glyphs::legible(&source.scene, fonts)
+            missing_glyphs::legible(&source.scene, fonts).into()
         } else {
             source.scene.clone()
         }
@@ -304,7 +304,7 @@ impl Render {
             return Err(why.into());
         }
         let scenes = sources.map(|source| self.shown(source, format, fonts));
-        let [before, after] = [&scenes[0], &scenes[1]].map(|s| Analysis::with(s, analysis_options));
+        let [before, after] = [&scenes[0], &scenes[1]].map(|s| Analysis::with(s.clone(), analysis_options));
         let title = |number: usize| match scenes[number].title.as_str() {
             title if title.is_empty() || scenes[0].title == scenes[1].title => sources[number].stem(),
             title => title.to_owned(),

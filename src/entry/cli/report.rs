@@ -4,6 +4,7 @@ mod task;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
@@ -275,10 +276,10 @@ impl Report {
             // A PDF contains text in the built-in fonts of drystone. Code points replace characters that these fonts
             // lack.
             for source in &mut read {
-                source.scene = missing_glyphs::legible(&source.scene, &Fonts::default());
+                source.scene = missing_glyphs::legible(&source.scene, &Fonts::default()).into();
             }
         }
-        let analyses: Vec<Analysis> = read.iter().map(|source| Analysis::with(&source.scene, options)).collect();
+        let analyses: Vec<Analysis> = read.iter().map(|source| Analysis::with(source.scene.clone(), options)).collect();
         let ending = analyses.iter().map(ExitStatus::from_analysis).max();
         let Some(mut entry) = entry(&read, &analyses, report_options) else {
             return Ok(Err(Vec::new()));
@@ -287,7 +288,7 @@ impl Report {
             make_figures_legible(&mut entry, &read, analyses, report_options);
         }
         if self.accuracy_study {
-            let mut scene = read[0].scene.clone();
+            let mut scene = Arc::unwrap_or_clone(read[0].scene.clone());
             if scene.title.is_empty() {
                 scene.title = read[0].stem();
             }

@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
@@ -26,7 +27,7 @@ pub(crate) struct Source {
     /// The path as typed, `-` for standard input.
     pub(crate) path: PathBuf,
     /// The checked scene.
-    pub(crate) scene: Scene,
+    pub(crate) scene: Arc<Scene>,
     /// Its file, with the values that `--set` changes.
     pub(crate) file: Vec<u8>,
 }
@@ -98,7 +99,7 @@ pub(crate) fn read_each(
     let outcome = |path: PathBuf| {
         let source = read_one(&path, level).and_then(|mut source| {
             if let Some(frame) = frame {
-                source.scene = frame.of(&source.scene, &source.name()).map_err(CliError::NoSuchFrame)?;
+                source.scene = frame.of(&source.scene, &source.name()).map_err(CliError::NoSuchFrame)?.into();
             }
             Ok(source)
         });
@@ -190,15 +191,28 @@ fn sorted(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), CliError> {
 /// The extensions of drawings, which only `import` reads.
 const DRAWINGS: [&str; 3] = ["dxf", "svg", "wkt"];
 
+/// The largest size of a file. Reading lists of very short numbers takes about 70 times the size in memory.
+const MAX_BYTES: u64 = 64_000_000;
+
 /// Reads a file, or standard input for `-`.
 pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, CliError> {
+    let size = fs::metadata(path).map_or(0, |file| file.len());
     let read = if path == Path::new("-") {
         let mut bytes = Vec::new();
-        io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
-    } else {
+        io::stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes).map(|_| bytes)
+    } else if size <= MAX_BYTES {
         fs::read(path)
+    } else {
+        Ok(Vec::new())
     };
-    read.map_err(|error| CliError::not_read(name(path), error))
+    let bytes = read.map_err(|error| CliError::not_read(name(path), error))?;
+    match size.max(bytes.len() as u64) {
+        size if size <= MAX_BYTES => Ok(bytes),
+        size => Err(CliError::not_read(
+            name(path),
+            format!("{size} bytes or more are too many, at most {MAX_BYTES} are read; split it into several scenes"),
+        )),
+    }
 }
 
 /// Reads a scene file, or the one that a PNG or a PDF carries.
@@ -221,7 +235,7 @@ pub(crate) fn carried(path: &Path, picture: &[u8]) -> Result<Vec<u8>, CliError> 
 pub(crate) fn read_one(path: &Path, level: &AnalysisArgs) -> Result<Source, CliError> {
     let bytes = scene_bytes(path)?;
     match read_in_time(&name(path), 0, bytes, level) {
-        Ok(Ok((scene, file))) => Ok(Source { path: path.to_owned(), scene, file }),
+        Ok(Ok((scene, file))) => Ok(Source { path: path.to_owned(), scene: scene.into(), file }),
         Ok(Err(problems)) => Err(CliError::Scene { name: name(path), problems }),
         Err(late) => Err(CliError::not_read(name(path), late)),
     }

@@ -46,7 +46,7 @@ impl Verify {
         if let Some(scene) = &self.scene {
             let own = source::read(std::slice::from_ref(scene), None, &AnalysisArgs::default());
             let own = own.map_err(|mut errors| errors.swap_remove(0))?;
-            let mut analysis = Analysis::new(&own[0].scene);
+            let mut analysis = Analysis::new(own[0].scene.clone());
             let differs = certificate.differs_from(&Certificate::new(&mut analysis, hash(&bytes_of(scene)?)));
             if let Some(what) = differs {
                 let scene = scene.display();

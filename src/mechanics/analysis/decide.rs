@@ -49,7 +49,7 @@ pub(super) use verdict_only::{
 pub(super) use wedging::only_by_wedging;
 
 use super::{Failure, Options, UndecidedReason, Verdict};
-use crate::mechanics::program::{Program, Scale, UnknownCounts, adhesion_columns, columns};
+use crate::mechanics::program::{Program, Scale, UnknownCounts};
 use crate::mechanics::proof::{Forces, Motion, Proof, ProofThreshold, fastest};
 use crate::mechanics::solve::{Amounts, Balance, Choice, Effort, SolverSettings, determinate};
 use crate::mechanics::statics::assembly::Assembly;
@@ -159,8 +159,7 @@ pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Outcome
     let component = Component::new(assembly, options);
     let program = Program::new(assembly, component.scale);
     // Count the unknowns first: they are reported for each effect, even if no program is solved.
-    let count = UnknownCounts::new(&program, &columns(&program))
-        .plus(&UnknownCounts::new(&program, &adhesion_columns(&program)));
+    let count = UnknownCounts::new(&program);
     if let Some(outcome) = component.in_closed_form(&program) {
         return Outcome { count, ..outcome };
     }

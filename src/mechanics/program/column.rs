@@ -179,12 +179,12 @@ pub struct UnknownCounts {
 }
 
 impl UnknownCounts {
-    /// Counts the unknowns of a program for each effect.
-    pub fn new<'a>(program: &Program, columns: impl IntoIterator<Item = &'a Column>) -> UnknownCounts {
+    /// Counts the unknowns of a program for each effect, of admissible and of adhesive forces. The columns of many blocks
+    /// would take gigabytes, so they are not kept.
+    pub fn new(program: &Program) -> UnknownCounts {
         let mut counts = UnknownCounts::default();
-        for column in columns {
-            counts.add(column.force.effect(program), 1);
-        }
+        each_column(program, |column| counts.add(column.force.effect(program), 1));
+        each_adhesion_column(program, |column| counts.add(column.force.effect(program), 1));
         counts
     }
 
@@ -213,6 +213,12 @@ impl UnknownCounts {
 /// Returns the columns of all forces that contacts and robots can exert: contacts first, then grips.
 pub fn columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(6 * program.contacts.len() + 4 * program.grips.len());
+    each_column(program, |column| columns.push(column));
+    columns
+}
+
+/// Makes one column of [`columns`] after the other.
+fn each_column(program: &Program, mut add: impl FnMut(Column)) {
     for (number, contact) in program.contacts.iter().enumerate() {
         for point in 0..contact.points {
             let mu = contact.friction;
@@ -223,7 +229,7 @@ pub fn columns(program: &Program) -> Vec<Column> {
                     if *side == 0.0 { (1.0, 0.0) } else { (1.0 / (1.0 + mu), side * mu / (1.0 + mu)) };
                 let force = Force::Ray { contact: number, point, normal, friction };
                 let direction = contact.normal * normal + quarter_turn(contact.normal) * friction;
-                columns.push(contact_column(contact, point, direction, force, 1.0));
+                add(contact_column(contact, point, direction, force, 1.0));
             }
         }
     }
@@ -231,11 +237,10 @@ pub fn columns(program: &Program) -> Vec<Column> {
         for component in (0..3).filter(|c| grip.limits[*c] > 0.0) {
             for sign in [1.0, -1.0] {
                 let force = Force::Grip { grip: number, component, sign };
-                columns.push(grip_column(grip, component, sign, force, grip.limits[component]));
+                add(grip_column(grip, component, sign, force, grip.limits[component]));
             }
         }
     }
-    columns
 }
 
 /// Returns the columns of all adhesive forces of a program. Adhesive forces have no limits. The columns of the contacts
@@ -246,25 +251,30 @@ pub fn columns(program: &Program) -> Vec<Column> {
 /// points act along the same line.
 pub fn adhesion_columns(program: &Program) -> Vec<Column> {
     let mut columns = Vec::with_capacity(4 * program.contacts.len() + 6 * program.grips.len());
+    each_adhesion_column(program, |column| columns.push(column));
+    columns
+}
+
+/// Makes one column of [`adhesion_columns`] after the other.
+fn each_adhesion_column(program: &Program, mut add: impl FnMut(Column)) {
     for (number, contact) in program.contacts.iter().enumerate() {
         for point in 0..contact.points {
             let force = Force::AdhesionNormal { contact: number, point };
-            columns.push(contact_column(contact, point, -contact.normal, force, 1.0));
+            add(contact_column(contact, point, -contact.normal, force, 1.0));
         }
         for sign in [1.0, -1.0] {
             let force = Force::AdhesionFriction { contact: number, sign };
-            columns.push(contact_column(contact, 0, quarter_turn(contact.normal) * sign, force, 1.0));
+            add(contact_column(contact, 0, quarter_turn(contact.normal) * sign, force, 1.0));
         }
     }
     for (number, grip) in program.grips.iter().enumerate() {
         for component in 0..3 {
             for sign in [1.0, -1.0] {
                 let force = Force::AdhesionGrip { grip: number, component, sign };
-                columns.push(grip_column(grip, component, sign, force, f64::INFINITY));
+                add(grip_column(grip, component, sign, force, f64::INFINITY));
             }
         }
     }
-    columns
 }
 
 /// Creates the column of a force at an application point of a contact. If the contact has a second body, the opposite

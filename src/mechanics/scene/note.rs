@@ -110,8 +110,9 @@ impl Lines {
     }
 }
 
-/// Returns the notes on a valid scene. Notes on edges that nearly touch are added later, when contacts are found.
-pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -> Vec<Note> {
+/// Returns the notes on a valid scene. `source` is asked for its text only if there are notes. Notes on edges that nearly
+/// touch are added later, when contacts are found.
+pub(super) fn of<'s>(file: &SceneFile, scene: &Scene, source: impl Fn() -> Option<&'s Source<'s>>) -> Vec<Note> {
     let mut notes = Notes { list: Vec::new(), scene };
     notes.friction(file);
     notes.angles(file);
@@ -127,7 +128,7 @@ pub(super) fn of(file: &SceneFile, scene: &Scene, source: Option<&Source<'_>>) -
         notes.add(NoteCode::NoGround, &at.key("ground"), say::no_ground());
     }
     let place = |finding: &Finding| {
-        let span = source.and_then(|s| Some((s, s.find(&finding.path, finding.mark)?)));
+        let span = source().and_then(|s| Some((s, s.find(&finding.path, finding.mark)?)));
         span.map_or(0, |(source, span)| source.line(span.start))
     };
     (notes.list.iter())

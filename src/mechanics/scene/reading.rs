@@ -4,6 +4,8 @@
 //! A text is read once, into a syntax tree. The scene file is made from that tree. A value that does not fit is
 //! reported and left out. All other values are still checked.
 
+use std::cell::LazyCell;
+
 use super::Scene;
 use super::finding::{self, Finding, UnreadParts};
 use super::format::SceneFile;
@@ -50,17 +52,21 @@ impl Scene {
         let dialect = Dialect { lines_before, ..SCENE };
         let source = syntax::json(text, &dialect).map_err(|broken| SceneError::broken(text, broken))?;
         let (mut file, findings, unread) = read(&source, &dialect);
+        let lines = Lines::new(&source);
+        // The syntax tree takes more memory than the scene. It is made again if a message has a place in the text.
+        drop(source);
+        let source = LazyCell::new(|| syntax::json(text, &dialect).ok());
         file.tolerate(tolerance);
         let all = match resolve(&file, unread) {
             Ok(mut scene) if findings.is_empty() => {
-                scene.lines = Lines::new(&source);
-                scene.notes = note::of(&file, &scene, Some(&source));
+                scene.lines = lines;
+                scene.notes = note::of(&file, &scene, || source.as_ref());
                 return Ok(scene);
             }
             Ok(_) => findings,
             Err(more) => findings.into_iter().chain(more).collect(),
         };
-        Err(finding::located(all, Some(&source)))
+        Err(finding::located(all, source.as_ref()))
     }
 
     /// Reads and checks the bytes of a scene file.
@@ -142,7 +148,7 @@ impl Scene {
     /// ```
     pub fn new(file: SceneFile) -> Result<Scene, SceneError> {
         let mut scene = resolve(&file, UnreadParts::default()).map_err(|findings| finding::located(findings, None))?;
-        scene.notes = note::of(&file, &scene, None);
+        scene.notes = note::of(&file, &scene, || None);
         Ok(scene)
     }
 }

@@ -50,6 +50,9 @@ pub(super) fn resolve(file: &SceneFile, unread: UnreadParts) -> Result<Scene, Ve
 /// The largest number of corners of all bodies that use a shape.
 const MAX_CORNERS: usize = 1_000_000;
 
+/// The largest number of blocks. A wall of this many takes about 5 GB of memory.
+const MAX_BLOCKS: usize = 250_000;
+
 /// A scene file, with the values of the whole file that its bodies use: units, gravity, defaults, materials and shapes.
 struct Resolution<'f> {
     file: &'f SceneFile,
@@ -122,13 +125,18 @@ impl<'f> Resolution<'f> {
     /// Returns the scene; `None` if one of its bodies is not valid. Problems are reported in the order of the calls in
     /// this function.
     fn scene(&self, findings: &mut Findings) -> Option<Scene> {
+        let blocks = self.file.blocks.len();
+        if blocks > MAX_BLOCKS {
+            findings.add(&Trail::Top.key("blocks"), problem::message::too_many_blocks(blocks, MAX_BLOCKS));
+            return None;
+        }
         let corners = self.corners_of_shapes();
         if corners > MAX_CORNERS {
             findings.add(&Trail::Top.key("shapes"), problem::message::too_many_corners(corners, MAX_CORNERS));
             return None;
         }
         let most = steps::MAX_PLACED_BLOCKS;
-        if self.file.steps.is_empty() && self.file.blocks.len() * self.case_count() > most {
+        if self.file.steps.is_empty() && blocks * self.case_count() > most {
             findings.add(&Trail::Top.key("blocks"), problem::message::too_many_placed(most));
             return None;
         }

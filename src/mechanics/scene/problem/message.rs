@@ -173,6 +173,14 @@ pub(in crate::mechanics::scene) fn too_many_steps(steps: usize, most: usize) -> 
     )
 }
 
+pub(in crate::mechanics::scene) fn too_many_blocks(blocks: usize, most: usize) -> Wording {
+    new_wording(
+        Code::TooManySteps,
+        format!("there are {blocks} blocks, and at most {most} are allowed"),
+        "use fewer blocks, or split the scene into several scenes",
+    )
+}
+
 pub(in crate::mechanics::scene) fn too_many_corners(corners: usize, most: usize) -> Wording {
     new_wording(
         Code::TooManyCorners,
