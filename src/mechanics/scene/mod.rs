@@ -103,7 +103,8 @@ pub struct Scene {
     pub(crate) vehicle: Option<Vehicle>,
     /// Materials, in the file's order.
     pub(crate) materials: Vec<Material>,
-    /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`].
+    /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`], the smaller
+    /// first, in the order of these numbers.
     pub(crate) friction_pairs: Vec<([usize; 2], f64)>,
     /// The contacts that the file lists. If the list is not empty, contacts are not computed from the outlines.
     pub(crate) contacts: Vec<ListedContact>,
@@ -240,7 +241,7 @@ impl Scene {
     }
 
     /// Returns the friction coefficients that the scene gives for pairs of materials. The materials are given by their
-    /// indices in [`Scene::materials`].
+    /// indices in [`Scene::materials`], in the order of these indices.
     pub fn friction_pairs(&self) -> &[([usize; 2], f64)] {
         &self.friction_pairs
     }
@@ -296,8 +297,8 @@ impl Scene {
         let (a, b) = (self.body(a), self.body(b));
         if let (Some(m), Some(n)) = (a.material, b.material) {
             let wanted = [m.min(n), m.max(n)];
-            if let Some(pair) = self.friction_pairs.iter().find(|p| p.0 == wanted) {
-                return pair.1;
+            if let Ok(pair) = self.friction_pairs.binary_search_by_key(&wanted, |pair| pair.0) {
+                return self.friction_pairs[pair].1;
             }
         }
         a.friction.min(b.friction)

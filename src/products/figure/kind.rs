@@ -25,15 +25,17 @@ use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::{self, Analysis, MarginKinds};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 use crate::mechanics::analysis::{CapacityRequest, MarginKind, Sensitivity};
+#[cfg(any(feature = "cli", feature = "wasm"))]
+use crate::mechanics::scene::Frame;
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::style::ForceMarks;
 use crate::text::Word;
 
-/// The largest number of placed blocks of all frames for which all margins are cheap, and for which the factor on the
-/// loads and the tilt are. The numbers count blocks, not seconds, so the same scene has the same figure on every
+/// The largest number of placed blocks of all frames for which all margins are cheap, for which the factor on the loads
+/// and the tilt are, and for which the factor on the loads of one frame is: a wall of 2 000 blocks takes 7 s for it. The numbers count blocks, not seconds, so the same scene has the same figure on every
 /// machine.
 #[cfg(any(feature = "cli", feature = "wasm"))]
-const MAX_MARGIN_BLOCKS: [usize; 2] = [60, 140];
+const MAX_MARGIN_BLOCKS: [usize; 3] = [60, 140, 1000];
 /// So many corners, each of which may touch other blocks, count as one more block.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 const CORNERS_OF_A_BLOCK: usize = 200;
@@ -42,14 +44,15 @@ const CORNERS_OF_A_BLOCK: usize = 200;
 /// far longer than the verdicts. Returns `None` if there are none.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) fn cheap_margins(scene: &Scene) -> Option<MarginKinds> {
-    let [all, main] = MAX_MARGIN_BLOCKS;
+    let [all, main, one] = MAX_MARGIN_BLOCKS;
+    let is_loaded = |frame: &Frame| scene.loads.iter().any(|load| frame.placed.contains(&load.block));
     let size = |block: &BlockId| 1 + scene.blocks[block.0].body.polygon.outline().len() / CORNERS_OF_A_BLOCK;
-    match scene.frames.iter().flat_map(|frame| &frame.placed).map(size).sum::<usize>() {
+    let blocks = scene.frames.iter().flat_map(|frame| &frame.placed).map(size).sum::<usize>();
+    // Each block may lie on every part of the ground.
+    match blocks.max(scene.ground.len()) {
         count if count <= all => Some(MarginKinds::ALL),
         count if count <= main => Some(MarginKinds::new(&[MarginKind::LoadFactor, MarginKind::Tilt])),
-        // The factor on the loads of one frame takes about as long as one or two verdicts, whatever the number of
-        // blocks.
-        _ if scene.frames.len() == 1 && scene.loads.iter().any(|load| scene.frames[0].placed.contains(&load.block)) => {
+        count if count <= one && scene.frames.len() == 1 && is_loaded(&scene.frames[0]) => {
             Some(MarginKinds::new(&[MarginKind::LoadFactor]))
         }
         _ => None,

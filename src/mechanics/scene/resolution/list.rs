@@ -70,6 +70,7 @@ impl Resolution<'_> {
             seen.insert(pair, i);
             pairs.extend(friction.map(|friction| (pair, friction)));
         }
+        pairs.sort_unstable_by_key(|(pair, _)| *pair);
         pairs
     }
 
