@@ -177,7 +177,6 @@ pub fn shell(word: &str) -> String {
 /// In valid JSON, such characters occur only inside strings, where escapes are allowed.
 pub fn json(text: &str) -> Cow<'_, str> {
     // Most text has no character to replace, and testing bytes is much faster than decoding characters.
-    let is_plain = |b: &u8| matches!(b, b' '..=b'~' | b'\n' | b'\t' | b'\r');
     if text.as_bytes().iter().all(is_plain) {
         return Cow::Borrowed(text);
     }
@@ -191,6 +190,11 @@ pub fn json(text: &str) -> Cow<'_, str> {
         }
     }
     Cow::Owned(out)
+}
+
+/// True for a byte of a character that [`json`] never replaces.
+pub(crate) fn is_plain(byte: &u8) -> bool {
+    matches!(byte, b' '..=b'~' | b'\n' | b'\t' | b'\r')
 }
 
 /// Escapes text for a GitHub annotation: `%` becomes `%25`, and a line break becomes `%0A`. Other characters are

@@ -234,10 +234,10 @@ fn the_cases_on_the_page_of_questions_have_the_factors_that_it_states() {
     let page = read("src/doc/questions.md");
     let scene = Scene::from_json(&read("assets/questions/retaining-wall.json")).expect("valid");
     let frame = Analysis::with(&scene, &Options::default().margins(true)).frames.remove(0);
-    let cases = frame.cases.expect("the scene has cases");
+    let cases = frame.cases.as_ref().expect("the scene has cases");
     assert_eq!(cases.each.len(), 3);
-    for case in cases.each {
-        let factor = case.margins.expect("requested").load_factor.at().expect("a limit");
+    for case in &cases.each {
+        let factor = case.margins.as_ref().expect("requested").load_factor.at().expect("a limit");
         let words =
             format!("case {}: stands, carries its loads times {:.2}", case.id, (100.0 * factor).floor() / 100.0);
         assert!(page.contains(&words), "{words}");

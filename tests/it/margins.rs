@@ -3,30 +3,31 @@
 
 mod robots;
 
+use std::sync::Arc;
+
 use drystone::analysis::{EffectName, FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
 use crate::structure::{arch, block, on_floor, on_slope, rectangle, scene, verdict, wall};
 
-fn frames(scene: &Scene) -> Vec<FrameAnalysis> {
+fn frames(scene: &Scene) -> Vec<Arc<FrameAnalysis>> {
     let options = Options::default().margins(true);
     Analysis::with(scene, &options).frames
 }
 
 fn margins(file: &Value) -> Margins {
-    frames(&scene(file)).remove(0).margins.expect("margins were requested")
+    frames(&scene(file))[0].margins.clone().expect("margins were requested")
 }
 
-fn thesis(name: &str) -> Vec<FrameAnalysis> {
+fn thesis(name: &str) -> Vec<Arc<FrameAnalysis>> {
     let path = format!("{}/assets/thesis/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("a scene of the source");
     frames(&Scene::from_json(&text).expect("sound"))
 }
 
 fn step(name: &str, number: usize) -> Margins {
-    let frame = thesis(name).remove(number);
-    frame.margins.expect("margins were requested")
+    thesis(name)[number].margins.clone().expect("margins were requested")
 }
 
 #[track_caller]
@@ -274,7 +275,7 @@ fn a_margin_needs_few_verdicts_of_verdicts() {
         let frame = frames(&scene(&file)).remove(0);
         let count = verdicts(&frame);
         assert!(count <= most, "{count} verdicts were computed");
-        let found = frame.margins.expect("margins were requested");
+        let found = frame.margins.as_ref().expect("margins were requested");
         for margin in [&found.horizontal_load.left, &found.tilt.right] {
             assert!(matches!(margin, Margin::Value { .. }), "{margin:?}");
         }
@@ -288,7 +289,10 @@ fn a_margin_requested_alone_has_the_same_value() {
     let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
     let alone = Analysis::with(&file, &options).frames.remove(0);
     assert!(verdicts(&alone) < verdicts(&all));
-    let (all, alone) = (all.margins.expect("margins were requested"), alone.margins.expect("margins were requested"));
+    let (all, alone) = (
+        all.margins.as_ref().expect("margins were requested"),
+        alone.margins.as_ref().expect("margins were requested"),
+    );
     let [a, b] = [&all, &alone].map(|found| found.friction.at().expect("it slides"));
     assert!((a - b).abs() < 1e-7, "{a} and {b}");
     assert_eq!(alone.kernel, Margin::NotAsked);

@@ -24,7 +24,7 @@ fn arch(thickness: f64, translation: [f64; 2]) -> Value {
 fn cracked(scene: &Scene) -> Cracked {
     let frame = Analysis::new(scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Stable);
-    match frame.movements.into_iter().next().map(|moved| moved.outcome) {
+    match frame.movements.first().map(|moved| moved.outcome.clone()) {
         Some(MovementOutcome::Follows(cracked)) => cracked,
         other => panic!("{other:?}"),
     }

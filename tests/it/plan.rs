@@ -61,7 +61,7 @@ fn is_buildable(value: &Value, robots: u32) -> bool {
         state["steps"] = json!([{ "place": names(placed).map(id).collect::<Vec<_>>(), "hold": holds }]);
         stands(&state)
     };
-    let contacts = Analysis::new(scene(value)).frames.remove(0).contacts;
+    let contacts = Analysis::new(scene(value)).frames[0].contacts.clone();
     let bit = |body: BodyId| if let BodyId::Block(block) = body { 1_u32 << block.0 } else { 0 };
     let is_connected = |placed: u32| {
         let mut reached = 0;

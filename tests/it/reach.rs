@@ -16,7 +16,7 @@ fn reached(file: &Value, kind: MarginKind, value: f64) -> Reached {
     let mut analysis = Analysis::with(scene(file), &options);
     let frame = analysis.frames.pop().expect("a frame");
     assert!(frame.notices.iter().all(|notice| !notice.contains("reach")), "{:?}", frame.notices);
-    frame.reach.expect("it was requested")
+    frame.reach.clone().expect("it was requested")
 }
 
 #[track_caller]

@@ -14,7 +14,7 @@ fn rows(file: &Value) -> Vec<Removable> {
     let mut analysis = Analysis::with(scene(file), &Options::default().removable(true));
     let last = analysis.frames.pop().expect("a frame");
     assert!(last.notices.iter().all(|notice| !notice.contains("removable")), "{:?}", last.notices);
-    last.removable.expect("it was requested")
+    last.removable.clone().expect("it was requested")
 }
 
 /// Compares the least help for a block with a value, in newtons; `None` if the rest stands or if nothing helps.

@@ -26,7 +26,7 @@ fn floor() -> Value {
 }
 
 fn margins(file: &Value) -> Margins {
-    Analysis::with(scene(file), &Options::default().margins(true)).frames.remove(0).margins.expect("margins")
+    Analysis::with(scene(file), &Options::default().margins(true)).frames[0].margins.clone().expect("margins")
 }
 
 #[test]

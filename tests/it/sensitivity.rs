@@ -16,8 +16,8 @@ fn sensitivity(file: &Value, kind: MarginKind) -> Sensitivity {
 
 fn of_scene(scene: &Scene, kind: MarginKind) -> Sensitivity {
     let options = Options::default().sensitivity(kind);
-    let mut analysis = Analysis::with(scene, &options);
-    analysis.frames.remove(0).sensitivity.expect("requested")
+    let analysis = Analysis::with(scene, &options);
+    analysis.frames[0].sensitivity.clone().expect("requested")
 }
 
 /// An end of the margin: the upper one if `is_high`.

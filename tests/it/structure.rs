@@ -1,5 +1,7 @@
 //! Scene files that several tests share.
 
+use std::sync::Arc;
+
 use drystone::analysis::{FrameAnalysis, Verdict};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
@@ -10,7 +12,7 @@ pub fn scene(file: &Value) -> Scene {
 }
 
 /// The analysis of the first frame of a scene file. Panics if the frame has a verdict but not its proof.
-pub fn first(file: &Value) -> FrameAnalysis {
+pub fn first(file: &Value) -> Arc<FrameAnalysis> {
     let scene = scene(file);
     let frame = Analysis::new(&scene).frames.remove(0);
     assert!(frame.proof.holds() || frame.verdict == Verdict::Undecided, "{:?}", frame.proof);

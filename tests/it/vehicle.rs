@@ -18,7 +18,7 @@ fn bridge(axles: Value) -> Value {
 
 #[track_caller]
 fn influence(file: &Value) -> Influence {
-    Analysis::new(scene(file)).frames.remove(0).vehicle.expect("an influence line")
+    Analysis::new(scene(file)).frames[0].vehicle.clone().expect("an influence line")
 }
 
 /// The load factor of a scene with these loads instead of its vehicle: block, point and weight in kilonewtons.
@@ -29,7 +29,7 @@ fn single(file: &Value, loads: &[(String, [f64; 2], f64)]) -> Option<f64> {
     file["loads"] = loads.collect();
     let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
     let frame = Analysis::with(scene(&file), &options).frames.remove(0);
-    frame.margins.expect("margins").load_factor.at()
+    frame.margins.as_ref().expect("margins").load_factor.at()
 }
 
 /// Compares the positions of a vehicle, one of `every`, with single checks.

@@ -1,5 +1,7 @@
 //! Structures that stand only by wedging: by a self-stress that their loads do not cause.
 
+use std::sync::Arc;
+
 use drystone::Analysis;
 use drystone::analysis::{EffectName, FrameAnalysis, Options, Verdict};
 use serde_json::{Value, json};
@@ -7,7 +9,7 @@ use serde_json::{Value, json};
 use crate::structure::{arch, block, harmonic, on_floor, on_slope, rectangle, scene, wall};
 
 /// The analysis of the first frame, with the effect `wedging`.
-fn with_wedging(file: &Value) -> FrameAnalysis {
+fn with_wedging(file: &Value) -> Arc<FrameAnalysis> {
     let options = Options::default().wedging(true);
     Analysis::with(scene(file), &options).frames.remove(0)
 }

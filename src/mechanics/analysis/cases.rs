@@ -5,11 +5,11 @@
 
 use std::sync::Arc;
 
-use super::{Analysis, FrameAnalysis, Margin, Margins, Options, Verdict, reach};
+use super::{Analysis, FrameAnalysis, Margin, Margins, Options, Verdict, reach, repeat};
 use crate::mechanics::scene::{Case, Load, Scene};
 
 /// The results of all load cases of one frame.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct LoadCases {
     /// The index of the case to which the results of the frame belong: its worst case.
@@ -90,7 +90,8 @@ impl Analysis {
     pub(super) fn of_cases(scene: Arc<Scene>, options: &Options) -> Analysis {
         // A change must reach its target in all cases.
         let alone = Options { reach: None, ..*options };
-        let (mut frames, mut scenes, mut notes) = (Vec::<FrameAnalysis>::new(), Vec::new(), Vec::new());
+        let source = repeat::source_of_each(&scene.frames);
+        let (mut frames, mut scenes, mut notes) = (Vec::<Arc<FrameAnalysis>>::new(), Vec::new(), Vec::new());
         let mut cases: Vec<LoadCases> = Vec::new();
         let mut latest: Option<Analysis> = None;
         for (k, case) in scene.cases.iter().enumerate() {
@@ -104,10 +105,11 @@ impl Analysis {
                 notes = std::mem::take(&mut found.notes);
                 frames.clone_from(&found.frames);
                 scenes = vec![found.scene.clone(); frames.len()];
-                let first = |frame| LoadCases { governing: 0, each: Vec::new(), envelope: envelope(frame) };
-                cases = frames.iter().map(first).collect();
+                let range = |k: usize| if source[k] == k { envelope(&frames[k]) } else { Vec::new() };
+                let first = |k| LoadCases { governing: 0, each: Vec::new(), envelope: range(k) };
+                cases = (0..frames.len()).map(first).collect();
             }
-            for (number, frame) in found.frames.iter().enumerate() {
+            for (number, frame) in found.frames.iter().enumerate().filter(|(k, _)| source[*k] == *k) {
                 let (id, verdict, margins) = (case.id.clone(), frame.verdict, frame.margins.clone());
                 cases[number].each.push(CaseResult { id, verdict, margins });
                 for (range, own) in cases[number].envelope.iter_mut().zip(envelope(frame)) {
@@ -121,12 +123,17 @@ impl Analysis {
                 }
             }
         }
-        for (frame, cases) in frames.iter_mut().zip(cases) {
-            frame.cases = Some(cases);
+        let own = frames.iter_mut().enumerate().filter(|(k, _)| source[*k] == *k);
+        let mut own: Vec<_> = own.map(|(k, frame)| (k, Arc::make_mut(frame))).collect();
+        for (k, frame) in &mut own {
+            frame.cases = Some(std::mem::take(&mut cases[*k]));
         }
-        reach::add_reach(&scene, &mut frames, options);
+        reach::add_reach(&scene, own.into_iter(), options);
+        for (k, source) in source.into_iter().enumerate() {
+            (frames[k], scenes[k]) = (frames[source].clone(), scenes[source].clone());
+        }
         // Results of the whole scene, such as a list of inputs, show the case of the worst frame.
-        let worst = worst_of(&frames.iter().collect::<Vec<_>>());
+        let worst = worst_of(&frames);
         let shown = scenes.get(worst).unwrap_or(&scene).clone();
         Analysis { scene: shown, frames, notes, cases: Some(CaseScenes { given: scene, of_frames: scenes }) }
     }
@@ -145,8 +152,8 @@ impl Analysis {
 }
 
 /// Returns the index of the worst of several results; of equal ones the first.
-fn worst_of(found: &[&FrameAnalysis]) -> usize {
-    (1..found.len()).fold(0, |worst, next| if is_worse(found[next], found[worst]) { next } else { worst })
+fn worst_of(found: &[Arc<FrameAnalysis>]) -> usize {
+    (1..found.len()).fold(0, |worst, next| if is_worse(&found[next], &found[worst]) { next } else { worst })
 }
 
 /// True if a frame is worse in the first case than in the second.

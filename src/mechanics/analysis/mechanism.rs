@@ -11,6 +11,7 @@
 //! motion that slides along the joints and keeps hinges closed therefore replaces the rising motion, if there is one.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::{Analysis, FrameAnalysis, MarginKind, Verdict};
 use crate::geometry::{Point, Vector, cross};
@@ -62,7 +63,7 @@ impl Analysis {
         let mut analysis = self.clone();
         for (number, frame) in analysis.frames.iter_mut().enumerate() {
             if frame.verdict == Verdict::Unstable {
-                frame.mechanism = self.mechanisms(number);
+                Arc::make_mut(frame).mechanism = self.mechanisms(number);
             }
         }
         analysis

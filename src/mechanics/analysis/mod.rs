@@ -22,6 +22,7 @@ mod option;
 mod pair;
 mod placement;
 mod removable;
+mod repeat;
 mod wedged;
 mod thrust_states;
 mod movement;
@@ -135,8 +136,8 @@ pub struct Analysis {
     /// The analysed scene. If the scene has load cases, this is the scene in the worst case of its worst frame;
     /// [`Analysis::scene_of`] returns it for each frame.
     pub scene: Arc<Scene>,
-    /// One entry per frame of the scene, in order.
-    pub frames: Vec<FrameAnalysis>,
+    /// One entry per frame of the scene, in order. Frames in the same state share their results.
+    pub frames: Vec<Arc<FrameAnalysis>>,
     /// Notes on things that are allowed but seldom intended: the notes of the scene, and notes on gaps that are
     /// nearly contacts.
     pub notes: Vec<Note>,
@@ -244,15 +245,17 @@ impl Analysis {
         if !scene.cases.is_empty() {
             return Analysis::of_cases(scene, options);
         }
-        let (interfaces, mut frames) = analyse::analyse(&scene, options);
-        gaps_closed::recheck(&scene, &interfaces, &mut frames, options);
-        capacity::add_capacities(&scene, &interfaces, &mut frames, options);
-        movement::add_movements(&scene, &interfaces, &mut frames, options);
-        removable::add_removables(&scene, &interfaces, &mut frames, options);
-        reach::add_reach(&scene, &mut frames, options);
-        vehicle::add_influence(&scene, &interfaces, &mut frames, options);
-        let notes = gaps_closed::notes(&scene, &interfaces);
-        Analysis { scene, frames, notes, cases: None }
+        let source = repeat::source_of_each(&scene.frames);
+        let once = repeat::without_repeats(&scene, &source);
+        let (interfaces, mut frames) = analyse::analyse(&once, options);
+        gaps_closed::recheck(&once, &interfaces, &mut frames, options);
+        capacity::add_capacities(&once, &interfaces, &mut frames, options);
+        movement::add_movements(&once, &interfaces, &mut frames, options);
+        removable::add_removables(&once, &interfaces, &mut frames, options);
+        reach::add_reach(&once, frames.iter_mut().enumerate(), options);
+        vehicle::add_influence(&once, &interfaces, &mut frames, options);
+        let notes = gaps_closed::notes(&once, &interfaces);
+        Analysis { frames: repeat::with_repeats(frames, &source), scene, notes, cases: None }
     }
 
     /// Returns the analysis of one frame alone, whose scene has only this frame too. `number` is counted from 0. `None`

@@ -4,6 +4,8 @@
 //! are kept: the block of the first scene is absent from the second frame, and the block of the second scene is new
 //! there.
 
+use std::sync::Arc;
+
 use super::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::geometry::Polygon;
 use crate::mechanics::scene::{Block, BlockId, BodyId, Frame, Load, RobotId, Scene};
@@ -23,7 +25,7 @@ pub fn pair(
     before: (&Analysis, usize),
     after: (&Analysis, usize),
     titles: [String; 2],
-) -> Result<(Scene, Vec<FrameAnalysis>), String> {
+) -> Result<(Scene, Vec<Arc<FrameAnalysis>>), String> {
     let (first, second) = (&*before.0.scene, &*after.0.scene);
     // The common scene has only one ground, one direction of gravity and one list of contacts.
     check_ground_and_gravity(first, second)?;
@@ -48,7 +50,7 @@ pub fn pair(
     frames[0].title = title;
     frames[1].title = if differences.is_empty() { later } else { format!("{later}: {}", differences.join(", ")) };
     scene.frames = frames;
-    let found = vec![before.0.frames[before.1].clone(), new_indices.frame_analysis(&after.0.frames[after.1])];
+    let found = vec![before.0.frames[before.1].clone(), new_indices.frame_analysis(&after.0.frames[after.1]).into()];
     Ok((scene, found))
 }
 

@@ -80,10 +80,14 @@ words! {
 }
 
 /// Finds the changes with which each frame reaches the target, if the options request it.
-pub(super) fn add_reach(scene: &Scene, frames: &mut [FrameAnalysis], options: &Options) {
+pub(super) fn add_reach<'f>(
+    scene: &Scene,
+    frames: impl Iterator<Item = (usize, &'f mut FrameAnalysis)>,
+    options: &Options,
+) {
     let Some(target) = options.reach else { return };
     let _until = DeadlineGuard::new(options.deadline);
-    for (number, found) in frames.iter_mut().enumerate() {
+    for (number, found) in frames {
         let states = scene.alone(number).map(|alone| states(&alone, target)).unwrap_or_default();
         // The frame is also undecided if its verdict depends on gaps.
         let is_open = |verdict: Verdict| verdict == Verdict::Undecided;

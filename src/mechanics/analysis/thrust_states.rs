@@ -109,7 +109,7 @@ impl Analysis {
         let scene = &**self.scene_of(number);
         let frame = &scene.frames[number];
         let assembly = effect::assembly_of(scene, frame, &Interfaces::new(scene));
-        let mut state = self.frames[number].clone();
+        let mut state = FrameAnalysis::clone(&self.frames[number]);
         for component in assembly.components() {
             let forces = extreme_forces(scene, &component, sign)?;
             set_forces(&mut state, &component, &forces, scene.kernel);
@@ -122,14 +122,15 @@ impl Analysis {
     /// which it stands. `None` if this kernel is unknown, or if the forces have no proof.
     fn central(&self, number: usize) -> Option<ThrustState> {
         let kernel = self.frames[number].margins.as_ref()?.kernel.at()?;
-        let mut scene = Scene::clone(self.scene_of(number));
+        let mut scene = self.scene_of(number).alone(number)?;
         scene.movements.clear();
         scene.vehicle = None;
         scene.kernel = (kernel * (1.0 - WITHIN_KERNEL)).clamp(scene.kernel, 1.0);
-        let found = Analysis::with(scene, &Options::default()).frames.swap_remove(number);
-        let frame = FrameAnalysis { contacts: found.contacts, robots: found.robots, ..self.frames[number].clone() };
+        let analysis = Analysis::with(scene, &Options::default());
+        let FrameAnalysis { verdict, contacts, robots, .. } = FrameAnalysis::clone(analysis.frames.first()?);
+        let frame = FrameAnalysis { contacts, robots, ..FrameAnalysis::clone(&self.frames[number]) };
         let thrust = thrust(&self.scene, &frame.contacts);
-        (found.verdict == Verdict::Stable).then_some(ThrustState { frame, thrust })
+        (verdict == Verdict::Stable).then_some(ThrustState { frame, thrust })
     }
 }
 

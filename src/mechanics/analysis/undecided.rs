@@ -92,7 +92,7 @@ mod tests {
     fn reasons_make_one_sentence() {
         let text = r#"{ "drystone": 1, "blocks": [{ "polygon": [[0, 0], [1, 0], [0, 1]] }] }"#;
         let scene = Scene::from_json(text).expect("sound");
-        let mut frame = Analysis::new(&scene).frames.remove(0);
+        let mut frame = FrameAnalysis::clone(&Analysis::new(&scene).frames[0]);
         assert_eq!(frame.doubt(), "");
         let unproved = |power: Option<f64>| UndecidedReason::Unproved {
             forces: Proof::Forces { worst_imbalance: 1e-3, worst_share: 0.0, worst_pull: 0.0, worst_slip: 0.0 },

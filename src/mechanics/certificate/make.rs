@@ -7,6 +7,7 @@
 //! this is the largest load factor along the loads −s on every contact point, one linear program for each component.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 use super::fall::{NEGLIGIBLE, motion_of_all, opening_motion, with_motion};
 use super::limits::Limits;
@@ -44,7 +45,7 @@ impl Certificate {
             limits: Vec::new(),
         };
         for (number, found) in analysis.frames.iter_mut().enumerate() {
-            let frame = &scene.frames[number];
+            let (frame, found) = (&scene.frames[number], Arc::make_mut(found));
             let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(frame) };
             let (assembly, _) = assemble(&context);
             let bare = frame_form(scene, &assembly, number + 1, found.verdict);

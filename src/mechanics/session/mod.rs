@@ -267,8 +267,7 @@ impl Session {
     /// ```
     pub fn margins(&self, kinds: MarginKinds) -> Option<Margins> {
         let options = self.options.margins(true).margin_kinds(kinds);
-        let frames = Analysis::with(&self.scene, &options).frames;
-        frames.into_iter().next()?.margins
+        Analysis::with(&self.scene, &options).frames.first()?.margins.clone()
     }
 
     /// Computes all forces that a placed block can carry in addition to its present loads. See [`Analysis::capacity`].

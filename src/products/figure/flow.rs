@@ -9,6 +9,7 @@ mod path;
 mod strand;
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use path::ribbon;
 use strand::{Origin, Strand, StrandKind, strands};
@@ -75,7 +76,7 @@ impl Figure for ForceFlow {
 }
 
 /// Returns the magnitude of the largest force of a joint or a robot in any frame, N.
-fn largest(frames: &[FrameAnalysis]) -> f64 {
+fn largest(frames: &[Arc<FrameAnalysis>]) -> f64 {
     let contacts = frames.iter().flat_map(|frame| &frame.contacts).map(|contact| contact.resultant.force.norm());
     let robots = frames.iter().flat_map(|frame| &frame.robots).map(|robot| robot.force.norm());
     contacts.chain(robots).fold(0.0, f64::max)

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::arrow::round_above;
 use super::canvas::Canvas;
@@ -88,7 +89,7 @@ pub(crate) fn about_build() -> About {
 }
 
 /// Returns the largest contact force of some frames, N.
-fn largest(frames: &[FrameAnalysis]) -> f64 {
+fn largest(frames: &[Arc<FrameAnalysis>]) -> f64 {
     let contacts = frames.iter().flat_map(|frame| &frame.contacts);
     contacts.map(|contact| contact.resultant.force.norm()).fold(0.0, f64::max)
 }

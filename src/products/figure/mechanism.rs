@@ -17,7 +17,7 @@ use super::fall::{Fall, Joint};
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::{collapse, description, gives, load, stage};
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, MarginKind, Verdict};
+use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId};
 use crate::pictures::drawing::{Outline, Path, Stroke};
 use crate::products::wording::margin::governing;
@@ -42,8 +42,11 @@ impl Figure for Mechanism {
     }
 
     fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
-        let falls = |frame: &FrameAnalysis| frame.verdict == Verdict::Unstable;
-        if analysis.frames.iter().any(falls) { &[MarginKind::LoadFactor, MarginKind::Friction] } else { &[] }
+        if analysis.frames.iter().any(|frame| frame.verdict == Verdict::Unstable) {
+            &[MarginKind::LoadFactor, MarginKind::Friction]
+        } else {
+            &[]
+        }
     }
 
     /// Returns what the frame lacks to stand, and how it begins to fall.

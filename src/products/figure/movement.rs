@@ -4,6 +4,8 @@
 //! The picture is made like that of a mechanism, in which the support is one more block that moves. The words state the
 //! movement for which it is drawn.
 
+use std::sync::Arc;
+
 use super::canvas::Canvas;
 use super::design::{Layer, Mark, unit};
 use super::displacement::Course;
@@ -105,7 +107,8 @@ fn displace(canvas: &mut Canvas<'_>, cracked: &Cracked, movement: &Movement) {
     scene.blocks.push(block);
     // Bodies without an outline of their own stop no block.
     scene.ground[movement.ground].body.is_schematic = true;
-    for body in alone.frames[0].contacts.iter_mut().flat_map(|contact| &mut contact.interface.bodies) {
+    let contacts = &mut Arc::make_mut(&mut alone.frames[0]).contacts;
+    for body in contacts.iter_mut().flat_map(|contact| &mut contact.interface.bodies) {
         if *body == ground {
             *body = BodyId::Block(support);
         }

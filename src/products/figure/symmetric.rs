@@ -4,6 +4,8 @@
 //! mechanism is only one of them. If the motion of the proof is symmetric, the sum of an elementary mechanism and of its
 //! mirror image is drawn: it is a mechanism too, and treats both halves alike.
 
+use std::sync::Arc;
+
 use crate::geometry::{Bounds, Vector};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Motion, Verdict};
 use crate::mechanics::scene::{BlockId, Scene};
@@ -24,7 +26,7 @@ pub(crate) fn symmetric(proved: &Analysis, mut elementary: Analysis) -> Analysis
             && frame.robots.is_empty()
             && let Some(motions) = summed(&proved.scene, number, &proved.frames[number], &frame.mechanism)
         {
-            frame.mechanism = motions;
+            Arc::make_mut(frame).mechanism = motions;
         }
     }
     elementary

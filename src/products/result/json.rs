@@ -160,9 +160,13 @@ struct Escaping<'w>(&'w mut dyn io::Write);
 
 impl io::Write for Escaping<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        // serde_json writes pieces of text that divide no character.
-        let piece = std::str::from_utf8(bytes).map_err(io::Error::other)?;
-        self.0.write_all(text::json(piece).as_bytes())?;
+        // serde_json writes pieces of text that divide no character. Most are short and plain.
+        if bytes.iter().all(text::is_plain) {
+            self.0.write_all(bytes)?;
+        } else {
+            let piece = std::str::from_utf8(bytes).map_err(io::Error::other)?;
+            self.0.write_all(text::json(piece).as_bytes())?;
+        }
         Ok(bytes.len())
     }
 

@@ -182,7 +182,7 @@ const LINES: &str = r#"{
 #[test]
 fn the_names_and_the_order_of_the_keys_do_not_change() {
     let scene = scene();
-    let analysis = Analysis { scene: scene.into(), frames: vec![frame()], notes: vec![], cases: None };
+    let analysis = Analysis { scene: scene.into(), frames: vec![frame().into()], notes: vec![], cases: None };
     let expected = LINES.replace("VERSION", env!("CARGO_PKG_VERSION"));
     assert_eq!(to_json(&analysis, Timing::LeftOut, Layout::Lines), expected);
     let line = to_json(&analysis, Timing::Included, Layout::OneLine);
@@ -202,7 +202,7 @@ fn doubts_notices_and_weak_proofs_are_in_the_output() {
     frame.notices = vec!["a contact of 1e-9 m is left out".into()];
     frame.proof = Proof::Forces { worst_imbalance: 1e-3, worst_share: 0.5, worst_pull: 0.0, worst_slip: -0.0 };
     let json = to_json(
-        &Analysis { scene: scene.into(), frames: vec![frame], notes: vec![], cases: None },
+        &Analysis { scene: scene.into(), frames: vec![frame.into()], notes: vec![], cases: None },
         Timing::LeftOut,
         Layout::Lines,
     );

@@ -189,7 +189,7 @@ fn the_numbers_of_a_proof_by_forces_are_those_of_the_listed_forces() {
             checked.file
         );
         let imbalance = number(&proof["worst_imbalance"]);
-        let own = Analysis::new(scene(&checked.file)).frames.remove(0).proof;
+        let own = Analysis::new(scene(&checked.file)).frames[0].proof;
         assert!(
             matches!(own, Proof::Forces { worst_imbalance, .. } if worst_imbalance == imbalance),
             "{imbalance}: {own:?}"

@@ -41,8 +41,8 @@ fn robot_limits_that_may_be_zero_are_found_in_groups() {
         let report = effects.find(|e| e.effect == EffectName::Margins);
         let reason = report.expect("always reported").why.clone();
         let count: Option<usize> = reason.split(' ').find_map(|word| word.parse().ok());
-        let margins = frame.margins.expect("margins were requested");
-        (margins.robots, count)
+        let margins = frame.margins.as_ref().expect("margins were requested");
+        (margins.robots.clone(), count)
     };
     file["robots"] = vec![robot(2.0); 40].into();
     let (robots, count) = robot_margins(&file);

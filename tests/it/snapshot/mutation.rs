@@ -1,6 +1,8 @@
 //! The table of mutations: the layers that can see a mutation report it with a specific message. Small random changes
 //! of forces and pixels are not reported.
 
+use std::sync::Arc;
+
 use drystone::analysis::{Analysis, Verdict};
 use drystone::drawing::{Colour, Drawing, Group, Item, Outline, PagePoint, Segment, Theme};
 use drystone::figure::{self, Options};
@@ -354,7 +356,7 @@ fn jittered(analysis: &mut Analysis, random: &mut Random) {
         let part = (random.next() % 2001) as f64 / 1000.0 - 1.0;
         *value += part * 1e-9 * value.abs().max(1e-3);
     };
-    for frame in &mut analysis.frames {
+    for frame in analysis.frames.iter_mut().map(Arc::make_mut) {
         near(&mut frame.total_force);
         near(&mut frame.total_sticking);
         for contact in &mut frame.contacts {

@@ -1,5 +1,7 @@
 //! How a value of drystone is computed: from a margin, from a verdict, or by bisection between two values.
 
+use std::sync::Arc;
+
 use drystone::Analysis;
 use drystone::analysis::{FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict};
 use serde_json::Value;
@@ -7,14 +9,14 @@ use serde_json::Value;
 use crate::structure::scene;
 
 /// The first frame with all its forces.
-pub fn frame(file: &Value) -> FrameAnalysis {
+pub fn frame(file: &Value) -> Arc<FrameAnalysis> {
     Analysis::new(scene(file)).frames.remove(0)
 }
 
 fn margins(file: &Value, kind: MarginKind) -> Margins {
     let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[kind]));
-    let mut frames = Analysis::with(scene(file), &options).frames;
-    frames.remove(0).margins.expect("margins were requested")
+    let frames = Analysis::with(scene(file), &options).frames;
+    frames[0].margins.clone().expect("margins were requested")
 }
 
 fn at(margin: &Margin) -> f64 {

@@ -6,6 +6,7 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::Form;
 use super::resume::{self, ResumeFile, Settings};
@@ -125,7 +126,7 @@ const CSV_HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,largest_f
 pub(super) fn csv_rows(origin: &Origin, analysis: &Analysis) -> String {
     let scene = &analysis.scene;
     let frames = analysis.frames.iter().zip(&scene.frames).enumerate();
-    let row = |(number, (answer, frame)): (usize, (&FrameAnalysis, &crate::mechanics::scene::Frame))| {
+    let row = |(number, (answer, frame)): (usize, (&Arc<FrameAnalysis>, &crate::mechanics::scene::Frame))| {
         let [start, title] = [place(origin), cell(&frame.title)];
         let name = cell(&scene.title);
         let verdict = answer.verdict.word();

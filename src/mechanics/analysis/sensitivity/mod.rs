@@ -63,8 +63,7 @@ impl Analysis {
             None => {
                 let scene = self.scene.alone(frame).ok_or(NoSensitivity::NotApplicable)?;
                 let analysis = Analysis::with(scene, &Options::default().sensitivity(kind));
-                let mut frames = analysis.frames.into_iter();
-                let first = frames.next().and_then(|frame| frame.sensitivity);
+                let first = analysis.frames.first().and_then(|frame| frame.sensitivity.clone());
                 first.ok_or(NoSensitivity::NotApplicable)?
             }
         };

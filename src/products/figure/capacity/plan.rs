@@ -112,7 +112,7 @@ fn middle(points: &[Point]) -> Point {
 /// polygons is the same for all these frames.
 fn capacities(analysis: &Analysis) -> impl Iterator<Item = (&FrameAnalysis, &LoadCapacity)> {
     let frames = analysis.frames.iter();
-    frames.filter_map(|frame| Some((frame, frame.capacity.as_ref()?)))
+    frames.filter_map(|frame| Some((&**frame, frame.capacity.as_ref()?)))
 }
 
 /// Returns the largest magnitude of a force at a vertex of the polygons of all frames, N. It is at least 0.001 times

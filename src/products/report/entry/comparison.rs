@@ -205,7 +205,7 @@ impl<'a> Pair<'a> {
         Pair {
             sides,
             number,
-            frames: sides.map(|side| &side.analysis.frames[number]),
+            frames: sides.map(|side| &*side.analysis.frames[number]),
             units,
             shape: Shapes::new(sides, Some(number), units),
             settings: Settings::new(sides, number, units),
