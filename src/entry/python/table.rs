@@ -118,7 +118,7 @@ pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     let all: Vec<(usize, (usize, &Analysis))> =
         valid.flat_map(|(n, analysis)| (0..analysis.frames.len()).map(move |frame| (frame, (n, analysis)))).collect();
     let numbered: Vec<(usize, (usize, &FrameAnalysis))> =
-        all.iter().map(|(frame, (_, analysis))| (*frame, (*frame, &analysis.frames[*frame]))).collect();
+        all.iter().map(|(frame, (_, analysis))| (*frame, (*frame, &*analysis.frames[*frame]))).collect();
     let mut names = Rows::new(all);
     names.whole("scene", |row| row.0 as i64);
     names.columns.rotate_right(1);

@@ -34,11 +34,18 @@ pub(super) fn without_repeats(scene: &Arc<Scene>, source: &[usize]) -> Arc<Scene
 }
 
 /// Returns the results of every frame. `own` are those of the frames that have their own.
-pub(super) fn with_repeats(own: Vec<FrameAnalysis>, source: &[usize]) -> Vec<Arc<FrameAnalysis>> {
+pub(super) fn with_repeats(mut own: Vec<FrameAnalysis>, source: &[usize]) -> Vec<Arc<FrameAnalysis>> {
+    // A frame has about 2 kB without its lists, so the list of many frames shrinks while they move.
+    let mut moved = Vec::with_capacity(own.len());
+    while let Some(frame) = own.pop() {
+        moved.push(Arc::new(frame));
+        if own.len().is_multiple_of(1024) {
+            own.shrink_to_fit();
+        }
+    }
     let mut all: Vec<Arc<FrameAnalysis>> = Vec::with_capacity(source.len());
-    let mut own = own.into_iter();
     for (number, source) in source.iter().enumerate() {
-        all.extend(if *source == number { own.next().map(Arc::new) } else { Some(all[*source].clone()) });
+        all.extend(if *source == number { moved.pop() } else { Some(all[*source].clone()) });
     }
     all
 }
