@@ -32,8 +32,8 @@ use crate::pictures::drawing::style::ForceMarks;
 use crate::text::Word;
 
 /// The largest number of placed blocks of all frames for which all margins are cheap, for which the factor on the loads
-/// and the tilt are, and for which the factor on the loads of one frame is: a wall of 2 000 blocks takes 7 s for it. The numbers count blocks, not seconds, so the same scene has the same figure on every
-/// machine.
+/// and the tilt are, and for which the factor on the loads of one frame is: a wall of 2 000 blocks takes 7 s for it. The
+/// numbers count blocks, not seconds, so the same scene has the same figure on every machine.
 #[cfg(any(feature = "cli", feature = "wasm"))]
 const MAX_MARGIN_BLOCKS: [usize; 3] = [60, 140, 1000];
 /// So many corners, each of which may touch other blocks, count as one more block.
