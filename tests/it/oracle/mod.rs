@@ -149,8 +149,8 @@ fn off(found: f64, exact: f64, weight: f64) -> f64 {
 }
 
 /// Without one route of the solver, the verdict, the sum of forces or the sum of missing forces of each scene was once
-/// wrong. The exact program found the values of the file; `DRYSTONE_ORACLE_ROUTES=1` compares them with it again, which
-/// takes minutes.
+/// wrong. The exact program found the values of the file, except those of the static form, which the lower bound of the
+/// sum proves; `DRYSTONE_ORACLE_ROUTES=1` compares all with it again, which takes more than ten minutes.
 #[test]
 fn scenes_that_once_needed_a_route_of_their_own_keep_their_values() {
     let again = number_of("DRYSTONE_ORACLE_ROUTES", 0) > 0;
