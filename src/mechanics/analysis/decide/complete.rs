@@ -24,14 +24,16 @@ impl Component<'_> {
         }
     }
 
-    /// Replaces the forces of a large component that was decided by least residual by balancing forces of least sum, if
-    /// these are proved to be the least. All other components were decided by forces of least sum, or the program of
-    /// least force ended without a result.
+    /// Replaces the forces of an outcome by balancing forces of least sum, if these are proved to be the least. The
+    /// program of least force is solved with full conditioning. If a large component was decided by least residual, it
+    /// is solved with plain conditioning, which was not tried to the end before.
     fn with_least_force(&self, program: &Program, mut outcome: Outcome) -> Outcome {
-        if !program.has_many_blocks() || outcome.method != Method::LeastResidual || is_late() {
+        if is_late() {
             return outcome;
         }
-        let solved = balance_in(program, self.settings[0]);
+        let [plain, full] = self.settings;
+        let is_untried = program.has_many_blocks() && outcome.method == Method::LeastResidual;
+        let solved = balance_in(program, if is_untried { plain } else { full });
         outcome.effort = outcome.effort.plus(solved.effort);
         if let Some(amounts) = solved.forces
             && let Some(Rebalanced::Forces(proved)) = self.balance_every_body(program, &amounts, &mut outcome.effort)
