@@ -1,5 +1,5 @@
-//! [`Outline`]: a path on the page that consists of straight lines and cubic curves. [`hatch`] fills one
-//! with parallel lines, as engineering drawings show the ground.
+//! [`Outline`]: a path on the page that consists of straight lines and cubic curves. [`hatch`] fills an
+//! outline with parallel lines, as engineering drawings show the ground.
 
 use super::{PagePoint, PageRect};
 

@@ -253,8 +253,8 @@ impl Palette {
         all.flatten().collect()
     }
 
-    /// Returns an index for each pixel of a patch, row by row: that of its colour in the palette, or
-    /// [`UNCHANGED_INDEX`] if the pixel does not change.
+    /// Returns the place in the palette of the colour of each pixel of a patch, row by row. A pixel that does not change
+    /// has [`UNCHANGED_INDEX`].
     pub fn indices(&self, patch: &Patch) -> Vec<u8> {
         // Neighbouring pixels often have the same colour, so keep the last colour and its index.
         let mut known = ([0; 3], None);

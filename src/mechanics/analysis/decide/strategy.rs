@@ -80,9 +80,9 @@ impl Strategy {
     /// 2. Least force. It decides nearly every component, and figures show its forces.
     /// 3. Any balance, then least residual. They have an optimum on both sides of the limit, where least force may end
     ///    without a result.
-    /// 4. Least force with full conditioning, for few blocks.
-    /// 5. Least adhesion, also with both conditionings. Its optimum is the sum of the missing forces. It distinguishes
-    ///    best between a sum of 0 and a sum of almost 0.
+    /// 4. Least force with full conditioning, only for few blocks.
+    /// 5. Least adhesion, first with plain and then with full conditioning. Its optimum is the sum of the missing forces.
+    ///    It distinguishes best between a sum of 0 and a sum of almost 0.
     ///
     /// Three cases differ:
     ///

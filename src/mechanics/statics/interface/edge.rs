@@ -355,7 +355,7 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
 pub(super) struct Notices {
     /// Number of segments that are too short.
     short_count: usize,
-    /// The length of the longest of these segments, metres.
+    /// The length of the longest segment that is too short, metres.
     longest_short: f64,
     /// The largest [`Tolerance::min_length`] of the pairs of bodies with such a segment, metres.
     required_length: f64,

@@ -269,8 +269,8 @@ pub fn stands(parameter: Parameter, interval: &Interval) -> String {
     format!("{STANDS} {}{unconfirmed}", range(parameter, low, high))
 }
 
-/// Returns two values if two collapse motions together exclude all values of the parameter. The first motion excludes
-/// values below the first value, and the second motion excludes values above the second value.
+/// Two collapse motions may together exclude all values of a parameter: one excludes all values below a, the other all
+/// values above b. Returns `[a, b]`, or `None` if there are no such motions.
 fn conflict(excluded: &[Exclusion]) -> Option<[f64; 2]> {
     match excluded {
         [below, above] if below.from.is_none() && above.to.is_none() => Some([below.to?, above.from?]),
@@ -389,9 +389,8 @@ fn robot_limits<'a>(scene: &Scene, intervals: &'a Intervals, position: Position)
     list
 }
 
-/// Returns the index of the most important margin. This is the load factor if the list has it and the frame does not
-/// carry every multiple of its loads. Otherwise it is the margin with the smallest [`StatedMargin::reserve`]. Returns
-/// `None` for an empty list.
+/// Returns the index of the most important margin. This is the load factor, if the list has it and it has a limit.
+/// Otherwise it is the margin with the smallest [`StatedMargin::reserve`]. Returns `None` for an empty list.
 fn most_important(list: &[StatedMargin<'_>]) -> Option<usize> {
     let loads = list.iter().position(|m| m.parameter == Parameter::LoadFactor && !m.has_no_limit());
     let reserves = list.iter().map(StatedMargin::reserve).enumerate();
