@@ -1,7 +1,7 @@
 //! Writes animated PNG and GIF files, which show pictures one after the other and repeat endlessly.
 //!
-//! A picture is stored as a [`Patch`], the part that differs from the previous picture. If every pixel is opaque, all
-//! pictures share one [`Palette`] of at most 255 colours, with one more index for pixels that do not change. Files of both
+//! A picture is stored as a patch, the part that differs from the previous picture. If every pixel is opaque, all
+//! pictures share one palette of at most 255 colours, with one more index for pixels that do not change. Files of both
 //! formats then have about the same size.
 
 #[cfg(test)]

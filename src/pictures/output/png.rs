@@ -1,4 +1,5 @@
-//! [`render`] converts an SVG to a PNG with the resvg library. [`encode`] writes pixels as a PNG without loss, with one, three or four bytes per pixel: as few as possible.
+//! [`render`] converts an SVG to a PNG with the resvg library. `encode` writes pixels as a PNG without loss, with one,
+//! three or four bytes per pixel: as few as possible.
 
 #[cfg(test)]
 mod tests;
