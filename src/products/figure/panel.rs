@@ -174,8 +174,8 @@ pub(crate) struct About {
     /// Whether the analysis has to compute how a margin changes with corners, weights, friction and loads.
     pub needs_sensitivity: bool,
     /// Whether each falling part is shown with one elementary mechanism
-    /// ([`Analysis::elementary`](crate::mechanics::analysis::Analysis::elementary)), and an animation shows several steps of its
-    /// motion.
+    /// ([`Analysis::elementary`](crate::mechanics::analysis::Analysis::elementary)), and an animation shows several
+    /// steps of its motion.
     pub needs_elementary_mechanisms: bool,
     /// Whether the arrows of all panels have one scale, independent of the options.
     pub shares_arrow_scale: bool,

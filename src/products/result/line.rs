@@ -43,8 +43,8 @@ impl fmt::Display for Origin {
     }
 }
 
-/// The selected fields of a result. Fields are the keys of the result of [`to_json`](super::to_json), joined by dots, such as
-/// `frames.proof.power`. A key below a list selects this key of every entry. `verdict` (the worst verdict of all
+/// The selected fields of a result. Fields are the keys of the result of [`to_json`](super::to_json), joined by dots,
+/// such as `frames.proof.power`. A key below a list selects this key of every entry. `verdict` (the worst verdict of all
 /// frames) and `all` are also fields.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fields {

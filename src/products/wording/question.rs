@@ -233,7 +233,7 @@ pub fn cracks(scene: &Scene, found: &FrameAnalysis, cracked: &Cracked) -> String
     format!("{}{more}", listed(&named))
 }
 
-/// Returns one movement_sentence, without a full stop, about a movement of a support: the force on the support, and which joints
+/// Returns one sentence, without a full stop, about a movement of a support: the force on the support, and which joints
 /// open or slide and by how much.
 pub fn movement_sentence(scene: &Scene, found: &FrameAnalysis, moved: &SupportMovement) -> String {
     let first = movement(scene, moved);

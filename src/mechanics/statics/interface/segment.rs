@@ -1,6 +1,6 @@
 //! [`CommonSegment`]: the segment that two edges that face each other have in common, and the gap between them.
-//! [`GapSegment`]: such a segment if the two edges do not touch. [`without_outline`] drops the segments whose gap only follows from the rounded shape of an outline. It keeps the
-//! segments whose edges may have been meant to touch.
+//! [`GapSegment`]: such a segment if the two edges do not touch. [`without_outline`] drops the segments whose gap only
+//! follows from the rounded shape of an outline. It keeps the segments whose edges may have been meant to touch.
 
 use super::join::JOIN_REACH;
 use crate::geometry::{Edge, Point, Tolerance, Vector};
