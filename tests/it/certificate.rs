@@ -45,7 +45,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 
 /// Writes a certificate and reads it back; both must be equal to the last bit.
 fn certificate(scene: &Scene, options: &Options) -> Certificate {
-    let certificate = Certificate::new(&mut Analysis::with(scene, options), String::new());
+    let certificate = Certificate::new(&mut Analysis::with(scene, options), String::new(), true);
     let text = certificate.to_json();
     let read = Certificate::from_json(text.as_bytes()).expect("a certificate");
     assert_eq!(read, certificate);
@@ -376,23 +376,19 @@ fn the_program_writes_and_verifies_a_certificate() {
     assert!(code == Some(0) && json.contains("\"exact\": true"), "{json}");
     let (code, text) = run(&["verify", "proof.json", "stands.json"]);
     assert!(code == Some(0) && text.contains("frame 1: stands, exactly"), "{text}");
-    run(&["check", "stands.json", "--capacity", "a@2.2,1..2.8,1", "--certificate", "points.json"]);
-    let (code, text) = run(&["verify", "points.json", "stands.json"]);
-    let is_whole = text.contains("capacity corner 0") && text.contains("capacity edge 0");
-    assert!(code == Some(0) && is_whole && !text.contains("not proved"), "{text}");
-    run(&[
-        "check",
-        "stands.json",
-        "--capacity",
-        "a",
-        "--for-all",
-        "tilt=±1,friction=0.55..0.6",
-        "--certificate",
-        "in.json",
-    ]);
-    let (code, text) = run(&["verify", "in.json", "stands.json"]);
-    let is_whole = text.contains("capacity corner 0 case 3") && text.contains("capacity edge 0 case");
-    assert!(code == Some(0) && is_whole && !text.contains("not proved"), "{text}");
+    let points = "a@2.2,1..2.8,1";
+    let capacities = [
+        (&[points][..], "corner 0"),
+        (&["b"], "corner 0"),
+        (&["a", "--for-all", "tilt=±1,friction=0.55..0.6"], "corner 0 case 3"),
+        (&[points, "--for-all", "tilt=±1"], "corner 0 case 3"),
+    ];
+    for (words, corner) in capacities {
+        run(&[&["check", "stands.json", "--certificate", "capacity.json", "--capacity"], words].concat());
+        let (code, text) = run(&["verify", "capacity.json", "stands.json"]);
+        let is_whole = text.contains(&format!("capacity {corner}")) && text.contains("capacity edge 0");
+        assert!(code == Some(0) && is_whole && !text.contains("not proved"), "{text}");
+    }
     let (code, text) = run(&["verify", "proof.json", "falls.json"]);
     assert!(code == Some(2) && text.contains("is not about falls.json: the bodies differ"), "{text}");
     let (code, json) = run(&["check", "falls.json", "--json", "--no-timing", "--accuracy", "proved"]);

@@ -391,7 +391,7 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
         }
         let mut analysis = Analysis::with(&scene, &options);
         if number < 6 {
-            Certificate::new(&mut analysis, String::new());
+            Certificate::new(&mut analysis, String::new(), false);
         }
         let json = to_json_with_blocks(Some("a.json"), &analysis, Timing::Included, Layout::OneLine);
         walk(&serde_json::from_str(&json).expect("JSON"), "", KEYS, &mut seen);

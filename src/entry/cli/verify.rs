@@ -47,7 +47,7 @@ impl Verify {
             let own = source::read(std::slice::from_ref(scene), None, &AnalysisArgs::default());
             let own = own.map_err(|mut errors| errors.swap_remove(0))?;
             let mut analysis = Analysis::new(own[0].scene.clone());
-            let differs = certificate.differs_from(&Certificate::new(&mut analysis, hash(&bytes_of(scene)?)));
+            let differs = certificate.differs_from(&Certificate::new(&mut analysis, hash(&bytes_of(scene)?), false));
             if let Some(what) = differs {
                 let scene = scene.display();
                 return Err(CliError::CommandLine(format!("{shown} is not about {scene}: {what}")));
@@ -101,11 +101,11 @@ fn page(certificate: &Certificate, checked: &Checked) -> Page {
     page
 }
 
-/// Writes the certificate of an analysis to a file.
-pub(crate) fn write(analysis: &mut Analysis, scene: &Path, output: &Path) -> Result<(), CliError> {
+/// Writes the certificate of an analysis to a file, `with_margins` if its margins were requested.
+pub(crate) fn write(analysis: &mut Analysis, scene: &Path, output: &Path, with_margins: bool) -> Result<(), CliError> {
     destination::refuse_overwrites(&[output.to_owned()], &[scene])?;
     let hash = if scene == Path::new("-") { String::new() } else { hash(&bytes_of(scene)?) };
-    let certificate = Certificate::new(analysis, hash);
+    let certificate = Certificate::new(analysis, hash, with_margins);
     destination::write(&[(output.to_owned(), certificate.to_json().into_bytes())], Existing::Replace)
 }
 

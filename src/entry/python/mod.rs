@@ -115,7 +115,7 @@ impl Analysis {
 
     /// Returns the certificate that `check --certificate` writes; `hash` is the SHA-256 of the scene file.
     fn certificate(&self, py: Python<'_>, hash: String) -> String {
-        py.detach(|| Certificate::new(&mut (*self.analysis).clone(), hash).to_json())
+        py.detach(|| Certificate::new(&mut (*self.analysis).clone(), hash, true).to_json())
     }
 
     /// Returns the table `contacts`, `robots`, `failures` or `blocks`, for the frame with the index `frame`, or for all

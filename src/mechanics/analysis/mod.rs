@@ -44,14 +44,14 @@ pub use crate::mechanics::statics::interface::{ContactKind, Interface};
 pub use crate::mechanics::statics::resultant::Resultant;
 pub use crate::mechanics::wedge::Slide;
 pub(crate) use capacity::capacity_of;
-#[cfg(feature = "certificate")]
-pub(in crate::mechanics) use capacity::extremes;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use capacity::typed_capacity;
 pub use capacity::{
     CapacityEdge, CapacityError, CapacityRequest, CapacityShape, CapacityVertex, Cases, ForceAt, LoadCapacity,
     VertexForce,
 };
+#[cfg(feature = "certificate")]
+pub(in crate::mechanics) use capacity::{extremes, with_grip};
 pub(crate) use cases::CaseScenes;
 pub use cases::{CaseResult, Envelope, LoadCases};
 pub use decide::Method;

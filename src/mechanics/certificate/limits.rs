@@ -1,15 +1,16 @@
 //! [`Limits`]: proofs on both sides of each end of a margin, and of each corner and edge of a capacity.
 
+use super::stand::slack_forces;
 use super::{Certificate, Change, FrameForm, LimitForm, LoadForm};
 use crate::geometry::{Vector, quarter_turn};
-use crate::mechanics::analysis::{Cases, End, FrameAnalysis, Interval, LoadCapacity, Verdict, extremes};
+use crate::mechanics::analysis::{Cases, End, FrameAnalysis, Interval, LoadCapacity, Verdict, extremes, with_grip};
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::Scene;
 use crate::mechanics::statics::assembly::{Assembly, load_about};
 
 /// How far from an end the two sides are proved, relative to its size: the first distance at which both the numbers of
 /// the margin and the exact correction leave room.
-pub(super) const DISTANCES: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
+pub(super) const DISTANCES: [f64; 3] = [1e-8, 1e-6, 1e-4];
 
 /// The size of an end at 0, as a share of 1 or of the heaviest load.
 const LEAST_SIZE: f64 = 1e-3;
@@ -27,11 +28,13 @@ pub(super) struct Limits<'a> {
 type Changed = (Change, Assembly);
 
 impl Limits<'_> {
-    /// Returns the proofs of all margins and of the capacity of the frame, as far as they were requested.
-    pub fn all(&self) -> Vec<LimitForm> {
+    /// Returns the proofs of the capacity and the placement tolerance of the frame, as far as they were requested, and of
+    /// all margins `with_margins`.
+    pub fn all(&self, with_margins: bool) -> Vec<LimitForm> {
         let mut proofs = Vec::new();
         let given = self.assembly;
-        let intervals = self.found.margins.as_ref().map(|margins| &margins.intervals);
+        let margins = self.found.margins.as_ref().filter(|_| with_margins);
+        let intervals = margins.map(|margins| &margins.intervals);
         if let Some(intervals) = intervals {
             let mut add = |name: &str, interval: &Option<Interval>, change: &dyn Fn(f64) -> Changed| {
                 self.add_ends(&mut proofs, name, interval.as_ref(), 1.0, change);
@@ -107,33 +110,34 @@ impl Limits<'_> {
 
     /// Adds a proof just inside each corner of a capacity, and one just beyond each edge: in ranges of parameters, inside
     /// in each extreme case, and beyond in the case to which the edge belongs. A force at two points is their resultant at
-    /// the first, with its torque; in ranges it has none.
+    /// the first: inside with the torque that leaves the largest slack, and beyond without a torque, because the motion does
+    /// not rotate the block.
     fn add_capacity(&self, proofs: &mut Vec<LimitForm>, capacity: &LoadCapacity) {
         let Some(body) = self.assembly.bodies.iter().position(|body| body.block == capacity.block) else { return };
         let has_ranges = capacity.ranges != Cases::default();
         let Ok(cases) = extremes(self.assembly, &capacity.ranges) else { return };
         let (Some(&at), false) = (capacity.at.first(), capacity.vertices.is_empty()) else { return };
-        if has_ranges && capacity.at.len() > 1 {
-            return;
-        }
         let without = capacity.robot.and_then(|robot| self.assembly.grips.iter().position(|grip| grip.robot == robot));
         let corners: Vec<Vector> = capacity.vertices.iter().map(|vertex| vertex.force).collect();
-        let torques: Vec<f64> = capacity.vertices.iter().map(|vertex| vertex.torque).collect();
-        let middle_torque = torques.iter().sum::<f64>() / torques.len() as f64;
         let size = corners.iter().map(|force| force.norm()).fold(LEAST_SIZE * self.assembly.heaviest_load(), f64::max);
         let far = capacity.rays.iter().sum::<Vector>() * size;
         let middle = corners.iter().sum::<Vector>() / corners.len() as f64 + far;
-        let loaded = |case: &Assembly, force: Vector, torque: f64| {
-            let load = LoadForm { force: [force.x, force.y], at: [at.x, at.y], torque, fixed: false };
+        let loaded = |case: &Assembly, force: Vector, is_inside: bool| {
             let mut changed = if has_ranges { case.clone() } else { self.assembly.clone() };
             let own = &mut changed.bodies[body];
-            own.load = own.load.plus(load_about(own.centroid, at, force, torque));
+            own.load = own.load.plus(load_about(own.centroid, at, force, 0.0));
             let mut all: Vec<[Option<f64>; 3]> = self.bare.grips.iter().map(|grip| grip.limits).collect();
             if let Some(grip) = without {
-                all[grip] = [Some(0.0); 3];
-                let limits = &mut changed.grips[grip].limits;
-                (limits.fx, limits.fy, limits.torque) = (0.0, 0.0, 0.0);
+                (all[grip][0], all[grip][1]) = (Some(0.0), Some(0.0));
+                (changed.grips[grip].limits.fx, changed.grips[grip].limits.fy) = (0.0, 0.0);
             }
+            // Two forces are a force and a torque at the first point: that of a grip without a limit.
+            let held = || slack_forces(&with_grip(&changed, body, at, [0.0, 0.0, f64::INFINITY]));
+            let held = (is_inside && capacity.at.len() > 1).then(held).flatten();
+            let torque = held.and_then(|forces| forces.last().copied()).map_or(0.0, |[.., torque]| torque);
+            let own = &mut changed.bodies[body];
+            own.load = own.load.plus(load_about(own.centroid, at, Vector::zeros(), torque));
+            let load = LoadForm { force: [force.x, force.y], at: [at.x, at.y], torque, fixed: false };
             let force = Some((self.bare.placed[body], load));
             let gravity = has_ranges.then_some([case.pull.x, case.pull.y]);
             let friction = capacity.ranges.friction.map(|[least, _]| least);
@@ -144,11 +148,9 @@ impl Limits<'_> {
             1 => format!("capacity {part} {number}"),
             _ => format!("capacity {part} {number} case {case}"),
         };
-        for (number, (corner, torque)) in corners.iter().zip(&torques).enumerate() {
+        for (number, corner) in corners.iter().enumerate() {
             for (k, case) in cases.iter().enumerate() {
-                let inside = |share: f64| {
-                    loaded(case, corner + (middle - corner) * share, torque + (middle_torque - torque) * share)
-                };
+                let inside = |share: f64| loaded(case, corner + (middle - corner) * share, true);
                 proofs.extend(self.proof(&name("corner", number, k), Verdict::Stable, &[], &inside));
             }
         }
@@ -156,9 +158,8 @@ impl Limits<'_> {
             let ends: Vec<usize> = edge.ends.iter().flatten().copied().collect();
             let (first, last) = (ends.first().unwrap_or(&0), ends.last().unwrap_or(&0));
             let on_edge = (corners[*first] + corners[*last]) / 2.0;
-            let torque = (torques[*first] + torques[*last]) / 2.0;
             let Some(case) = cases.get(edge.case) else { continue };
-            let beyond = |share: f64| loaded(case, on_edge + edge.normal * (share * size), torque);
+            let beyond = |share: f64| loaded(case, on_edge + edge.normal * (share * size), false);
             proofs.extend(self.proof(&name("edge", number, edge.case), Verdict::Unstable, &edge.mechanism, &beyond));
         }
     }
@@ -173,7 +174,8 @@ impl Limits<'_> {
         (Change { gravity: Some([pull.x, pull.y]), ..Change::default() }, self.assembly.clone().with_gravity(pull))
     }
 
-    /// Returns the proof nearest to an end that is exact, or else the farthest one that was tried.
+    /// Returns the proof nearest to an end that is exact, or else the farthest one that was tried. A given motion needs no
+    /// program, so it is tried at all distances before other motions are computed.
     pub(super) fn proof(
         &self,
         of: &str,
@@ -181,13 +183,14 @@ impl Limits<'_> {
         mechanism: &[Motion],
         change: &dyn Fn(f64) -> Changed,
     ) -> Option<LimitForm> {
+        let given_first: &[bool] = if verdict == Verdict::Stable { &[false] } else { &[true, false] };
         let mut last = None;
-        for share in DISTANCES {
+        for (given_only, share) in given_first.iter().flat_map(|given| DISTANCES.map(|share| (*given, share))) {
             let (change, assembly) = change(share);
             let bare = FrameForm { verdict: verdict.word().to_owned(), ..change.of(self.bare) };
             let (proved, faults) = match verdict {
                 Verdict::Stable => self.certificate.standing(&bare, &assembly, None),
-                _ => self.certificate.falling(&bare, &assembly, mechanism),
+                _ => self.certificate.falling(&bare, &assembly, mechanism, given_only),
             };
             last = Some(LimitForm::new(of, change, proved));
             if faults.is_empty() {

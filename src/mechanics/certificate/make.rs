@@ -29,8 +29,9 @@ type Proved = (FrameForm, Vec<String>);
 
 impl Certificate {
     /// Writes the certificate of an analysis, and notes in the analysis which verdicts it proves exactly and what the
-    /// others miss. `scene_sha256` is the hash of the scene file in hexadecimal digits, or empty.
-    pub fn new(analysis: &mut Analysis, scene_sha256: String) -> Certificate {
+    /// others miss. `scene_sha256` is the hash of the scene file in hexadecimal digits, or empty. Proofs of capacities and
+    /// placement tolerances are written if the analysis has them, those of margins `with_margins` only.
+    pub fn new(analysis: &mut Analysis, scene_sha256: String, with_margins: bool) -> Certificate {
         let scene = &*analysis.scene;
         let interfaces = Interfaces::new(scene);
         let mut certificate = Certificate {
@@ -51,13 +52,12 @@ impl Certificate {
             let bare = frame_form(scene, &assembly, number + 1, found.verdict);
             let (proved, faults) = match found.verdict {
                 Verdict::Stable => certificate.standing(&bare, &assembly, Some(found)),
-                Verdict::Unstable => certificate.falling(&bare, &assembly, &found.mechanism),
+                Verdict::Unstable => certificate.falling(&bare, &assembly, &found.mechanism, false),
                 Verdict::Undecided => (bare.clone(), Vec::new()),
             };
             certificate.frames.push(proved);
-            certificate
-                .limits
-                .extend(Limits { scene, certificate: &certificate, bare: &bare, assembly: &assembly, found }.all());
+            let limits = Limits { scene, certificate: &certificate, bare: &bare, assembly: &assembly, found };
+            certificate.limits.extend(limits.all(with_margins));
             if found.verdict != Verdict::Undecided && found.exact.is_none() {
                 found.exact = Some(faults.is_empty());
                 let notice = |fault| format!("the verdict is not proved in exact arithmetic: {fault}");
@@ -84,18 +84,27 @@ impl Certificate {
     }
 
     /// Adds a motion to a frame that falls: the given one, or else one that opens more contacts and keeps those exactly
-    /// closed that cannot open.
-    pub(super) fn falling(&self, bare: &FrameForm, assembly: &Assembly, mechanism: &[Motion]) -> Proved {
+    /// closed that cannot open. With `given_only`, only the given motion, which needs no program.
+    pub(super) fn falling(
+        &self,
+        bare: &FrameForm,
+        assembly: &Assembly,
+        mechanism: &[Motion],
+        given_only: bool,
+    ) -> Proved {
         let (given, opening, fresh) = (motion_of_all(assembly, mechanism), OnceCell::new(), OnceCell::new());
         let opening = || opening.get_or_init(|| opening_motion(assembly, mechanism)).as_ref();
         let fresh = || fresh.get_or_init(|| mechanism_of(assembly));
         let as_given = || Some(with_motion(bare, assembly, &given, false));
+        let given_still = || Some(with_motion(bare, assembly, &given, true));
         let opened = || Some(with_motion(bare, assembly, opening()?, false));
         let opened_still = || Some(with_motion(bare, assembly, opening()?, true));
-        let given_still = || Some(with_motion(bare, assembly, &given, true));
         let fresh_given = || Some(with_motion(bare, assembly, &motion_of_all(assembly, fresh()), false));
         let fresh_still = || Some(with_motion(bare, assembly, &opening_motion(assembly, fresh())?, true));
-        self.best(bare, &[&as_given, &opened, &opened_still, &given_still, &fresh_given, &fresh_still])
+        if given_only {
+            return self.best(bare, &[&as_given, &given_still]);
+        }
+        self.best(bare, &[&as_given, &given_still, &opened, &opened_still, &fresh_given, &fresh_still])
     }
 
     /// Returns the first candidate that proves its verdict exactly, or the one with the fewest faults.

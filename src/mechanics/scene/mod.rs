@@ -38,6 +38,7 @@ pub use format::schema;
 pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
 pub use note::{Note, NoteCode};
+pub(in crate::mechanics) use problem::digits;
 pub(crate) use problem::isolate;
 pub use problem::{Code, Place, Problem, SceneError};
 pub use reading::{falling_starter, starter};

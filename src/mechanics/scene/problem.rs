@@ -164,7 +164,7 @@ fn new_wording(code: Code, message: impl Into<String>, help: impl Into<String>) 
 
 /// Formats a number for messages with at most six significant digits, but with all digits before the point. If its
 /// absolute value is at least 10⁹ or below 10⁻⁵, a number other than 0 is written with a power of ten.
-fn digits(x: f64) -> String {
+pub(in crate::mechanics) fn digits(x: f64) -> String {
     if x == 0.0 {
         return "0".into();
     }

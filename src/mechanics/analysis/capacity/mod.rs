@@ -35,7 +35,7 @@ use crate::mechanics::statics::interface::Interfaces;
 pub(in crate::mechanics) use cases::extremes;
 pub use load_capacity::{CapacityEdge, CapacityShape, CapacityVertex, LoadCapacity, VertexForce};
 use probe::Probe;
-pub(super) use probe::with_grip;
+pub(in crate::mechanics) use probe::with_grip;
 pub use request::{CapacityError, CapacityRequest, Cases, ForceAt};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use typed::typed_capacity;

@@ -313,12 +313,7 @@ impl Probe {
 
 /// Returns a copy of the assembly in which a robot with the given limits [Fx, Fy, torque] also holds a body. Its grip
 /// is the last of the list.
-pub(in crate::mechanics::analysis) fn with_grip(
-    given: &Assembly,
-    body: usize,
-    at: Point,
-    limits: [f64; 3],
-) -> Assembly {
+pub(in crate::mechanics) fn with_grip(given: &Assembly, body: usize, at: Point, limits: [f64; 3]) -> Assembly {
     let mut held = given.clone();
     let [fx, fy, torque] = limits;
     held.grips.push(AssemblyGrip {

@@ -7,7 +7,7 @@
 use super::interval::{End, Interval, Intervals};
 use super::kind::{MarginKind, MarginKinds};
 use crate::mechanics::proof::Motion;
-use crate::mechanics::scene::RobotId;
+use crate::mechanics::scene::{RobotId, digits};
 
 /// One margin: the limit of stability of a frame in one direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -214,9 +214,10 @@ impl Intervals {
             Interval::Between { low, high } => {
                 for (name, end) in [(least, low), (largest, high)] {
                     if let End::Unconfirmed { stands, beyond } = end {
+                        let [stands, beyond] = [stands, beyond].map(|value| digits(*value));
                         list.push(format!(
-                            "{name} is withheld, since no verdict confirms it: the frame stands at {stands:.6}, and \
-                             at {beyond:.6} it was not shown to stand; between these values nothing was proved"
+                            "{name} is withheld, since no verdict confirms it: the frame stands at {stands}, and \
+                             at {beyond} it was not shown to stand; between these values nothing was proved"
                         ));
                     }
                 }
@@ -265,7 +266,7 @@ mod tests {
 
     #[test]
     fn margins_without_a_confirmed_verdict_are_withheld_with_a_reason() {
-        let open = End::Unconfirmed { stands: 0.25, beyond: 0.5 };
+        let open = End::Unconfirmed { stands: 0.25, beyond: 2.5e-8 };
         let up_to = |high: End| Interval::Between { low: End::natural(0.0), high };
         let found = Intervals {
             friction: Some(Interval::excluded_by(Vec::new())),
@@ -286,13 +287,10 @@ mod tests {
         let expected = [
             (
                 "the largest tilt in degrees to the left is withheld",
-                "the frame stands at -0.250000, and at -0.500000 it was not",
+                "the frame stands at -0.25, and at -0.5 it was not",
             ),
-            ("the largest kernel is withheld", "the frame stands at 0.250000, and at 0.500000 it was not"),
-            (
-                "the least fy in newtons of robot r is withheld",
-                "the frame stands at 0.250000, and at 0.500000 it was not",
-            ),
+            ("the largest kernel is withheld", "the frame stands at 0.25, and at 2.5e-8 it was not"),
+            ("the least fy in newtons of robot r is withheld", "the frame stands at 0.25, and at 2.5e-8 it was not"),
             ("the least torque in newton metres of robot r and the largest", "no verdict shows at which values"),
         ];
         assert_eq!(listed.len(), expected.len());
