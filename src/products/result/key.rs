@@ -178,7 +178,7 @@ const MOVING_BLOCK: &[Key] = &[
 #[rustfmt::skip]
 pub static KEYS: &[Key] = &[
     key("drystone", Text, "version of the program"),
-    key("file", Text, "path of the scene file as given; for a file in a given folder, the path of the folder and the name of the file; `-` for standard input").when("from the command line"),
+    key("file", Text, "path of the scene file: as given, or that of its given folder and its name; `-` for standard input").when("from the command line"),
     key("scene", Text, "title of the scene; empty if the scene has none"),
     key("set", NameList, "values of the scene file that were replaced, such as `friction=0.5`; the title states them too").when("with `--set`"),
     key("contact_tolerance", Object, "largest gap at which edges still touch, and how corners were moved").of(&[
@@ -253,14 +253,14 @@ pub static KEYS: &[Key] = &[
             key("friction", Margin, "least friction coefficient, the same at all interfaces").when(IF_MARGIN_REQUESTED),
             key("tilt", Object, "largest turns of gravity at which the frame stands; each is null if it falls without a turn").when(IF_MARGIN_REQUESTED).of(TILT_SIDES),
             key("horizontal_load", Object, "largest horizontal force on every block, as a share of its weight").when(IF_MARGIN_REQUESTED).of(&[
-                key("left", Margin, "in this direction"),
-                key("right", Margin, "in this direction"),
+                key("left", Margin, "to this side"),
+                key("right", Margin, "to this side"),
             ]),
             key("kernel", Margin, "largest kernel").when(IF_MARGIN_REQUESTED),
             key("load_factor", Margin, "largest factor on the loads; null also without loads").when(IF_MARGIN_REQUESTED),
             key("robots", ByRobot, "least limits of each robot that holds a block; empty if they were not requested").of(&[
-                key("fx", Margin, "least limit of its horizontal force").unit("N"),
-                key("fy", Margin, "least limit of its vertical force").unit("N"),
+                key("fx", Margin, "least limit of this force").unit("N"),
+                key("fy", Margin, "least limit of this force").unit("N"),
                 key("torque", Margin, "least limit of its torque").unit("N·m"),
             ]),
             key("intervals", Object, "for each parameter, the values at which the frame stands if all else is unchanged; an end is `null` if there is no limit; an interval is `null` if the frame stands at no value; `\"withheld\"` replaces what no verdict confirms, and a notice says why").of(&[
@@ -270,8 +270,8 @@ pub static KEYS: &[Key] = &[
                 key("kernel", Interval, "kernel, from 0 to 1; without an upper end if the frame stands at 1").when(IF_MARGIN_REQUESTED),
                 key("load_factor", Interval, "factor on the loads, at least 0; 1 stands for the loads of the scene").when("if requested, with loads"),
                 key("robots", ByRobot, "limits of each robot, each varied alone").when("if requested, with robots that hold blocks").of(&[
-                    key("fx", Interval, "limit of its horizontal force").unit("N"),
-                    key("fy", Interval, "limit of its vertical force").unit("N"),
+                    key("fx", Interval, "limit of this force").unit("N"),
+                    key("fy", Interval, "limit of this force").unit("N"),
                     key("torque", Interval, "limit of its torque").unit("N·m"),
                 ]),
             ]),
@@ -281,9 +281,9 @@ pub static KEYS: &[Key] = &[
                 key("horizontal_load", Exclusions, "they exclude all values").when(IF_NO_INTERVAL),
                 key("kernel", Exclusions, "they exclude all values").when(IF_NO_INTERVAL),
                 key("load_factor", Exclusions, "they exclude all values").when(IF_NO_INTERVAL),
-                key("robots", ByRobot, "they exclude all values of a robot's limits").when(IF_NO_INTERVAL).of(&[
-                    key("fx", Exclusions, "they exclude all limits of its horizontal force").unit("N").when(IF_NO_INTERVAL),
-                    key("fy", Exclusions, "they exclude all limits of its vertical force").unit("N").when(IF_NO_INTERVAL),
+                key("robots", ByRobot, "they exclude all limits of a robot").when(IF_NO_INTERVAL).of(&[
+                    key("fx", Exclusions, "they exclude all limits of this force").unit("N").when(IF_NO_INTERVAL),
+                    key("fy", Exclusions, "they exclude all limits of this force").unit("N").when(IF_NO_INTERVAL),
                     key("torque", Exclusions, "they exclude all limits of its torque").unit("N·m").when(IF_NO_INTERVAL),
                 ]),
             ]),
@@ -295,8 +295,8 @@ pub static KEYS: &[Key] = &[
                     key("right", Motions, "to this side"),
                 ]),
                 key("horizontal_load", Object, "just beyond the largest horizontal loads").of(&[
-                    key("left", Motions, "in this direction"),
-                    key("right", Motions, "in this direction"),
+                    key("left", Motions, "to this side"),
+                    key("right", Motions, "to this side"),
                 ]),
                 key("kernel", Motions, "just beyond the largest kernel"),
                 key("load_factor", Motions, "just beyond the largest factor on the loads"),
@@ -312,7 +312,7 @@ pub static KEYS: &[Key] = &[
                 ]),
             ]),
         ]),
-        key("sensitivity", Object, "exact derivatives of the ends of one margin's interval with respect to vertices, weights, friction and loads, for unchanged contacts. If forces and mechanism are not unique, the margin may have a kink; the backward and the forward derivative are then given, or `at_kink` if they were not computed").when("with `--sensitivity`").of(&[
+        key("sensitivity", Object, "exact derivatives of the ends of one margin's interval with respect to vertices, weights, friction and loads, for unchanged contacts. At a kink, where forces and mechanism are not unique, the backward and the forward derivative are given, or `at_kink` if they were not computed").when("with `--sensitivity`").of(&[
             key("parameter", Word(&["friction", "tilt", "horizontal_load", "kernel", "load_factor"]), "parameter of the margin"),
             key("ends", Objects, "ends of the interval that have a value and a mechanism").of(&[
                 key("end", Word(&["low", "high"]), "lower or upper end"),
@@ -380,7 +380,7 @@ pub static KEYS: &[Key] = &[
                 ]),
             ]),
             key("mechanism", Motions, "motion with which the frame falls at every force; if no force belongs to all cases, the motion of one edge of one case").when("if a motion proves that the set is empty"),
-            key("gap", Number, "bound on the error of the set: every force that no motion excludes is at most this far from the proved forces; at most a millionth of the size of the set or a few billionths of the heaviest load").unit("N"),
+            key("gap", Number, "error of the set: every force that no motion excludes is at most this far from the proved forces; at most a millionth of the size of the set or a few billionths of the heaviest load").unit("N"),
             key("cases", Count, "number of extreme cases whose sets were intersected; 1 without `--for-all`"),
         ]),
         key("placement", Object, "how accurately the blocks must be placed: all joints, centres of gravity and loads may be off at the same time").when("with `--placement`, if the frame stands and errors of some block count").of(&[
@@ -405,7 +405,7 @@ pub static KEYS: &[Key] = &[
             key("load_factor", Margin, "largest factor on the loads in this case").when(IF_MARGIN_REQUESTED),
             key("tilt", Object, "largest turns of gravity in this case").when(IF_MARGIN_REQUESTED).of(TILT_SIDES),
         ]),
-        key("governing_case", Text, "the worst case: that with the worst verdict, then that with the least load factor; of equal ones, that with the least tilt").when("if the scene has load cases"),
+        key("governing_case", Text, "the worst case: that with the worst verdict, then the least load factor, then the least tilt").when("if the scene has load cases"),
         key("envelope", Objects, "the least and the greatest forces at each interface in the listed balances of all cases").when("if the scene has load cases").of(&[
             INTERFACE,
             key("normal", Pair, "least and greatest sum of the normal forces").unit("N"),
@@ -428,7 +428,7 @@ pub static KEYS: &[Key] = &[
         key("removable", Objects, "for each placed block, in the order of placing, whether it may leave").when("with `--removable`").of(&[
             key("block", Text, "block"),
             key("stands", FlagOrOpen, "whether the rest stands without the block and without the robot that holds it"),
-            key("force", Number, "least force of a robot that holds the block, at its grip point or else at its centroid, while its joints still touch, so that the whole frame stands; 0 if it stands without this robot").unit("N").when("if a force suffices"),
+            key("force", Number, "least force with which a robot must hold the block, at its grip point or else at its centroid, while its joints still touch, so that the whole frame stands; 0 if it stands without this robot").unit("N").when("if a force suffices"),
             key("help", Object, "least help with which the rest stands: one more robot that holds one other block at its centroid").when("if the rest falls, and one robot can help").of(&[
                 key("block", Text, "block that the robot holds"),
                 key("force", Number, "least force of the robot").unit("N"),
@@ -438,7 +438,7 @@ pub static KEYS: &[Key] = &[
             key("margin", Word(&["load_factor", "tilt", "horizontal_load"]), "margin"),
             key("target", Number, "value that the margin must reach; degrees for the tilt, to both sides"),
             key("stands", FlagOrOpen, "whether the unchanged frame stands, also at the target"),
-            key("changes", Objects, "changes of which each one alone reaches the target, and those that cannot; empty if none is needed").of(&[
+            key("changes", Objects, "changes, each of which alone reaches the target, and those that cannot; empty if none is needed").of(&[
                 key("change", Word(&["friction", "thickness", "weight", "hold", "tie", "prop"]), "one friction coefficient at all joints; a factor on the thickness of a chain; more weight on a block; a force from outside that holds a block at its centroid; a tie or a prop between the centroids of two blocks"),
                 key("blocks", NameList, "changed block, or the two blocks that are connected: those that need least of all that were tried").when("if blocks are chosen"),
                 key("amount", Number, "least amount, rounded up to three digits: a coefficient, a factor, or N; the changed frame is proved to stand at the target").when("if some amount reaches the target"),
@@ -451,7 +451,7 @@ pub static KEYS: &[Key] = &[
             key("positions", Objects, "positions that were analysed, in the order of travel").of(&[
                 key("at", Number, "coordinate of the first axle: x if gravity points downwards").unit("m"),
                 key("toward", Word(&["right", "left"]), "direction of travel"),
-                key("factor", Bound, "largest factor on the weight of the vehicle and on all listed loads with which the frame is proved to stand"),
+                key("factor", Bound, "largest factor on the weight of the vehicle and on all loads that are not fixed with which the frame is proved to stand"),
                 key("axles", Objects, "axles on the structure").of(&[
                     key("axle", Count, "index of the axle, from 0"),
                     key("block", Text, "block below the axle"),
@@ -459,7 +459,7 @@ pub static KEYS: &[Key] = &[
                 ]),
             ]),
         ]),
-        key("only_by_wedging", FlagOrOpen, "whether the frame stands only because blocks press on each other although no load presses them together; null if this could not be decided, and `effects` then gives the reason").when("with `--wedging`, if the frame stands"),
+        key("only_by_wedging", FlagOrOpen, "whether the frame stands only because blocks press on each other although no load presses them together; null if undecided, with the reason in `effects`").when("with `--wedging`, if the frame stands"),
         key("wedging", Object, "proof that the frame stands only by wedging").when("with `--wedging`, if `only_by_wedging` is `true`").of(&[
             key("must_press", Objects, "interfaces that open or slide if the springs give way; in every balance, their normal forces sum to at least `normal_force_at_least`, if a bound was found").of(&[
                 INTERFACE,
@@ -483,16 +483,16 @@ pub static KEYS: &[Key] = &[
             ]),
         ]),
         key("effects", Objects, "effects that were considered for this frame").of(&[
-            key("effect", Text, "`weight`, `contact`, `friction`, `kernel`, `robots`, `robot torque`, `loads`, `corner contacts`, `sticking`, `mechanism`, `margins` or `wedging`; with `--placement` also `placement`, with movements of supports also `movements`, and with a vehicle also `vehicle`"),
+            key("effect", Text, "`weight`, `contact`, `friction`, `kernel`, `robots`, `robot torque`, `loads`, `corner contacts`, `sticking`, `mechanism`, `margins` or `wedging`; also `placement`, `movements` and `vehicle` if they are computed"),
             key("simulated", Flag, "whether it was simulated"),
             key("why", Text, "reason"),
             key("unknowns", Count, "number of unknowns that the effect adds, or would have added"),
         ]),
         key("proof", Object, "how exactly the verdict is proved: by forces if the frame stands, by a motion if it falls, by either if it is undecided").of(&[
-            key("worst_imbalance", Number, "largest imbalance of a block: it balances if each force on it changes by at most this fraction of its magnitude and moves by at most this fraction of the block's radius").when("in a proof by forces"),
+            key("worst_imbalance", Number, "largest imbalance of a block: it balances if each force on it changes by at most this share of its magnitude and moves by at most this share of the block's radius").when("in a proof by forces"),
             key("worst_share", Number, "largest unbalanced force on a block, as a share of the load on this block").when("in a proof by forces"),
             key("worst_pull", Number, "largest tension at an application point, as a share of the forces at this contact").when("in a proof by forces"),
-            key("worst_slip", Number, "largest excess of friction over μN, as a share of the forces at this contact, or of a robot's force or torque over its limit, as a share of that force or torque; the larger of the two").when("in a proof by forces"),
+            key("worst_slip", Number, "largest excess of friction over μN, as a share of the forces at this contact, or of a robot's force or torque over its limit, as a share of it").when("in a proof by forces"),
             key("power", Number, "lower bound of the power of the loads along the motion, less what robots can absorb; as a share of the loads on the moving blocks, each weighted by the speed of its block").when("in a proof by a motion"),
             key("worst_violation", Number, "largest velocity against which an admissible force could act, relative to the fastest point").when("in a proof by a motion"),
             key("no_balance_below", Bound, "forces whose sum is below this multiple of the loads on the moving blocks cannot balance the blocks; `\"unbounded\"` if no forces can").when("in a proof by a motion"),
