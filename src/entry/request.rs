@@ -291,7 +291,7 @@ impl CheckArgs {
         }
         #[cfg(feature = "certificate")]
         if self.level.accuracy == Accuracy::Proved {
-            Certificate::new(&mut analysis, String::new(), false);
+            Certificate::note_exact(&mut analysis, options);
         }
         analysis
     }

@@ -4,7 +4,8 @@ use std::fs;
 use std::process::Command;
 use std::sync::Arc;
 
-use drystone::analysis::Options;
+use drystone::analysis::{FrameAnalysis, Options};
+use drystone::certificate::Certificate;
 use drystone::result::{Layout, Timing, to_json};
 use drystone::scene::{Code, Scene};
 use drystone::{Analysis, figure, output};
@@ -85,9 +86,20 @@ fn frames_in_the_same_state_share_their_results() {
     for cases in [json!([]), one_case] {
         file["cases"] = cases;
         let scene = Scene::from_json(&file.to_string()).expect("sound");
-        let frames = Analysis::with(&scene, &options).frames;
-        let shared = |k: usize| frames.iter().position(|frame| Arc::ptr_eq(frame, &frames[k])).expect("itself");
-        assert_eq!((0..frames.len()).map(shared).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 2, 4, 4, 2, 4, 4]);
+        let mut analysis = Analysis::with(&scene, &options);
+        let shared = |frames: &[Arc<FrameAnalysis>]| {
+            let first = |k| frames.iter().position(|frame| Arc::ptr_eq(frame, k)).expect("itself");
+            assert_eq!(frames.iter().map(first).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 2, 4, 4, 2, 4, 4]);
+        };
+        // They share what is added later too: motions for drawing, and what is proved exactly. A certificate has them all.
+        shared(&analysis.frames);
+        shared(&analysis.elementary().frames);
+        let certificate = Certificate::new(&mut analysis, String::new());
+        let frames = &analysis.frames;
+        shared(frames);
+        assert!(frames.iter().all(|frame| frame.exact == Some(true)));
+        assert!(certificate.frames.iter().map(|frame| frame.frame).eq(1..=11));
+        assert!(certificate.check().is_ok_and(|checked| checked.is_exact()));
         let verdicts: Vec<_> = frames.iter().map(|frame| frame.verdict.word()).collect();
         assert_eq!(verdicts[..5], ["stable", "stable", "stable", "unstable", "stable"]);
         assert!(frames[2].solve.reused == frames[2].solve.groups && frames[2].solve.programs == 0);

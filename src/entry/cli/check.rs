@@ -162,7 +162,7 @@ impl Check {
         let detail = Detail {
             full: self.verbose.then_some(if self.no_timing { Timing::LeftOut } else { Timing::Included }),
             margins: options.margins,
-            ranges: self.explain,
+            ranges: self.explain.then_some(options),
         };
         // The table states the same margin as the line below a picture, if it takes little time.
         if is_table && !options.margins && !options.verdict_only {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use clap::builder::styling::{AnsiColor, Style};
 
 use super::page::{Page, broken, seen};
-use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Options, Verdict};
 use crate::mechanics::scene::format::Expectation;
 use crate::mechanics::scene::{Limits, Scene};
 use crate::products::result::Timing;
@@ -88,8 +88,8 @@ pub(crate) struct Detail {
     pub full: Option<Timing>,
     /// Also all computed margins.
     pub margins: bool,
-    /// Also the range of the horizontal thrust.
-    pub ranges: bool,
+    /// Also the range of the horizontal thrust, until the deadline of these options.
+    pub ranges: Option<Options>,
 }
 
 /// Writes the table of one scene, for a terminal of `width` columns.
@@ -127,6 +127,8 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: &Detail, width: Option
     if fits {
         line(&mut page, &heads, &widths, [dim, dim]);
     }
+    let has_range = || detail.ranges.is_some_and(|options| !options.is_late());
+    let ranges = analysis.of_each(|number| has_range().then(|| thrust_range(analysis, number)).flatten());
     for ((number, frame), cells) in analysis.frames.iter().enumerate().zip(&rows) {
         let styles = [Style::new(), style(frame.verdict)];
         if fits {
@@ -134,7 +136,7 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: &Detail, width: Option
         } else {
             record(&mut page, &heads, cells, styles)
         }
-        for remark in remarks(analysis, number, detail) {
+        for remark in remarks(analysis, number, detail, ranges[number].as_deref()) {
             page.line(&format!("      {remark}"));
         }
     }
@@ -297,17 +299,15 @@ fn is_left_out(frame: &FrameAnalysis) -> bool {
     falls && frame.failures.is_empty() && frame.unsupported.is_empty()
 }
 
-/// Returns the remarks below the row of a frame. Each remark is printed on a separate line.
-fn remarks(analysis: &Analysis, number: usize, detail: &Detail) -> Vec<String> {
+/// Returns the remarks below the row of a frame, with the range of its thrust. Each remark is printed on a separate line.
+fn remarks(analysis: &Analysis, number: usize, detail: &Detail, range: Option<&str>) -> Vec<String> {
     let (scene, frame) = (analysis.scene_of(number), &analysis.frames[number]);
     let state = &scene.frames[number];
     let mut remarks = Vec::new();
     if let Some(timing) = detail.full {
         remarks.push(sums(scene, frame, timing));
     }
-    if detail.ranges {
-        remarks.extend(thrust_range(analysis, number));
-    }
+    remarks.extend(range.map(str::to_owned));
     remarks.extend(match (state.expected, frame.verdict) {
         (Some(Expectation::Unstable), Verdict::Unstable) => Some("falls, as expected".to_owned()),
         (Some(Expectation::Unstable), Verdict::Stable) => Some("stands, but its `expect` says unstable".to_owned()),

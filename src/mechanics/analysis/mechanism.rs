@@ -61,18 +61,12 @@ impl Analysis {
     /// Units: the fastest point has speed 1, as in [`FrameAnalysis::mechanism`].
     pub fn elementary(&self) -> Analysis {
         let mut analysis = self.clone();
-        for (number, frame) in analysis.frames.iter_mut().enumerate() {
+        analysis.change_each(|_, scene, frame| {
             if frame.verdict == Verdict::Unstable {
-                Arc::make_mut(frame).mechanism = self.mechanisms(number);
+                Arc::make_mut(frame).mechanism = self.elementary_mechanisms(scene, frame, &frame.mechanism);
             }
-        }
+        });
         analysis
-    }
-
-    /// Returns the elementary mechanisms of an unstable frame. `number` is the number of the frame, from 0.
-    fn mechanisms(&self, number: usize) -> Vec<Motion> {
-        let analysis = &self.frames[number];
-        self.elementary_mechanisms(self.scene_of(number), analysis, &analysis.mechanism)
     }
 
     /// Replaces `motions`, by which a frame falls under the loads of `scene`, by one elementary mechanism for each

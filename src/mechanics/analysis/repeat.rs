@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::FrameAnalysis;
+use super::{Analysis, FrameAnalysis};
 use crate::mechanics::scene::{Frame, Scene};
 
 /// Returns for each frame the index of the frame whose results it has: its own, or that of the second frame in the same
@@ -43,9 +43,37 @@ pub(super) fn with_repeats(mut own: Vec<FrameAnalysis>, source: &[usize]) -> Vec
             own.shrink_to_fit();
         }
     }
+    shared(moved.into_iter().rev(), source)
+}
+
+/// Returns the results of every frame, which frames with the same source share.
+fn shared(mut own: impl Iterator<Item = Arc<FrameAnalysis>>, source: &[usize]) -> Vec<Arc<FrameAnalysis>> {
     let mut all: Vec<Arc<FrameAnalysis>> = Vec::with_capacity(source.len());
     for (number, source) in source.iter().enumerate() {
-        all.extend(if *source == number { moved.pop() } else { Some(all[*source].clone()) });
+        all.extend(if *source == number { own.next() } else { Some(all[*source].clone()) });
     }
     all
+}
+
+impl Analysis {
+    /// Returns `of` for each frame, by its number from 0. It is computed for the first of all frames that share their
+    /// results, and the others have the same: it must follow from the state and the results of a frame.
+    pub(crate) fn of_each<T: Clone>(&self, mut of: impl FnMut(usize) -> T) -> Vec<T> {
+        let mut known = BTreeMap::new();
+        let frames = self.frames.iter().enumerate();
+        frames.map(|(number, frame)| known.entry(Arc::as_ptr(frame)).or_insert_with(|| of(number)).clone()).collect()
+    }
+
+    /// Changes the results of each frame. Frames that share their results are changed once, as the first of them, and
+    /// still share them. `change` has the number of the frame, from 0, and the scene to which its results belong.
+    pub(crate) fn change_each(&mut self, mut change: impl FnMut(usize, &Arc<Scene>, &mut Arc<FrameAnalysis>)) {
+        let first = self.of_each(|number| number);
+        // Results that are held only once are changed in place.
+        let frames = std::mem::take(&mut self.frames).into_iter().enumerate();
+        let mut own: Vec<_> = frames.filter(|(number, _)| first[*number] == *number).collect();
+        for (number, frame) in &mut own {
+            change(*number, self.scene_of(*number), frame);
+        }
+        self.frames = shared(own.into_iter().map(|(_, frame)| frame), &first);
+    }
 }

@@ -7,16 +7,21 @@
 //! this is the largest load factor along the loads −s on every contact point, one linear program for each component.
 
 use std::cell::OnceCell;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::fall::{NEGLIGIBLE, motion_of_all, opening_motion, with_motion};
 use super::limits::Limits;
 use super::stand::{inner_forces, order, slack_forces};
-use super::{BodyForm, Certificate, CircleForm, ContactForm, ForcesForm, FrameForm, GripForm, LoadForm, Pair};
+use super::{
+    BodyForm, Certificate, CircleForm, ContactForm, ForcesForm, FrameForm, GripForm, LimitForm, LoadForm, Pair,
+};
+use crate::clock::Instant;
 use crate::geometry::{Point, Vector};
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict, mechanism_of};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, Options, Verdict, mechanism_of};
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::{BodyId, Scene};
+use crate::mechanics::solve::{DeadlineGuard, is_late};
 use crate::mechanics::statics::assembly::{Assembly, AssemblyContact};
 use crate::mechanics::statics::effect::{FrameContext, assemble};
 use crate::mechanics::statics::interface::{ContactKind, Interfaces};
@@ -30,41 +35,77 @@ type Proved = (FrameForm, Vec<String>);
 impl Certificate {
     /// Writes the certificate of an analysis, and notes in the analysis which verdicts it proves exactly and what the
     /// others miss. `scene_sha256` is the hash of the scene file in hexadecimal digits, or empty. Proofs of capacities and
-    /// placement tolerances are written if the analysis has them, those of margins `with_margins` only.
+    /// placement tolerances are written if the analysis has them, those of margins `with_margins` only. A certificate has no
+    /// load cases: its bodies have the loads of the worst case of all frames, and do not prove a frame with another one.
     pub fn new(analysis: &mut Analysis, scene_sha256: String, with_margins: bool) -> Certificate {
-        let scene = &*analysis.scene;
-        let interfaces = Interfaces::new(scene);
+        let first = analysis.of_each(|number| number);
+        let mut proved = BTreeMap::new();
+        let mut certificate = Certificate::prove_each(analysis, None, |form, limits| {
+            proved.insert(form.frame, (form.clone(), limits.all(with_margins)));
+        });
+        certificate.scene_sha256 = scene_sha256;
+        for (number, first) in first.into_iter().enumerate() {
+            let (frame, (form, limits)) = (number + 1, &proved[&(first + 1)]);
+            certificate.frames.push(FrameForm { frame, ..form.clone() });
+            certificate.limits.extend(limits.iter().map(|limit| LimitForm { frame, ..limit.clone() }));
+        }
+        certificate
+    }
+
+    /// Notes in an analysis which verdicts exact arithmetic proves and what the others miss, as [`Certificate::new`] does,
+    /// but keeps no proof, and ends at the deadline of the options.
+    pub(crate) fn note_exact(analysis: &mut Analysis, options: &Options) {
+        Certificate::prove_each(analysis, options.deadline, |_, _| ());
+    }
+
+    /// Proves the verdict of each frame, one for all frames that share their results, and notes whether the proof is
+    /// exact. `keep` has the proved frame, and what its limits are proved from. Returns the certificate without frames.
+    fn prove_each(
+        analysis: &mut Analysis,
+        deadline: Option<Instant>,
+        mut keep: impl FnMut(&FrameForm, &Limits<'_>),
+    ) -> Certificate {
+        let _until = DeadlineGuard::new(deadline);
+        let mut latest = analysis.scene.clone();
+        let interfaces = Interfaces::new(&latest);
         let mut certificate = Certificate {
             drystone_certificate: 1,
-            scene_sha256,
-            distance: distance(scene, &interfaces),
-            corners_carry: scene.corner_contacts(),
-            shortest: scene.tolerance().min_length.max(scene.tolerance().rounding),
-            listed: scene.lists_contacts(),
-            bodies: bodies(scene),
+            scene_sha256: String::new(),
+            distance: distance(&latest, &interfaces),
+            corners_carry: latest.corner_contacts(),
+            shortest: latest.tolerance().min_length.max(latest.tolerance().rounding),
+            listed: latest.lists_contacts(),
+            bodies: bodies(&latest),
             frames: Vec::new(),
             limits: Vec::new(),
         };
-        for (number, found) in analysis.frames.iter_mut().enumerate() {
-            let (frame, found) = (&scene.frames[number], Arc::make_mut(found));
+        analysis.change_each(|number, scene, found| {
+            // A frame has the weights and the loads of its worst load case.
+            if !Arc::ptr_eq(scene, &latest) {
+                (certificate.bodies, latest) = (bodies(scene), scene.clone());
+            }
+            let frame = &scene.frames[number];
             let context = FrameContext { scene, frame, interfaces: &interfaces.in_frame(frame) };
             let (assembly, _) = assemble(&context);
             let bare = frame_form(scene, &assembly, number + 1, found.verdict);
             let (proved, faults) = match found.verdict {
-                Verdict::Stable => certificate.standing(&bare, &assembly, Some(found)),
-                Verdict::Unstable => certificate.falling(&bare, &assembly, &found.mechanism, false),
+                Verdict::Stable if !is_late() => certificate.standing(&bare, &assembly, Some(found)),
+                Verdict::Unstable if !is_late() => certificate.falling(&bare, &assembly, &found.mechanism, false),
+                Verdict::Stable | Verdict::Unstable => (bare.clone(), vec!["the time limit was reached".to_owned()]),
                 Verdict::Undecided => (bare.clone(), Vec::new()),
             };
-            certificate.frames.push(proved);
+            // The proofs of the limits look for their frame in the certificate, and copy it with all its frames.
+            certificate.frames = vec![proved];
             let limits = Limits { scene, certificate: &certificate, bare: &bare, assembly: &assembly, found };
-            certificate.limits.extend(limits.all(with_margins));
+            keep(&certificate.frames[0], &limits);
             if found.verdict != Verdict::Undecided && found.exact.is_none() {
+                let found = Arc::make_mut(found);
                 found.exact = Some(faults.is_empty());
                 let notice = |fault| format!("the verdict is not proved in exact arithmetic: {fault}");
                 found.notices.extend(faults.first().map(notice));
             }
-        }
-        certificate
+        });
+        Certificate { bodies: bodies(&analysis.scene), frames: Vec::new(), ..certificate }
     }
 
     /// Adds forces to a frame that stands: those of the analysis, or those with the largest slack, whichever leave

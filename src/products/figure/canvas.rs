@@ -22,7 +22,7 @@ const MANY_BLOCKS: usize = 1000;
 /// A shape is only joined to one of this many paths before it, so that a picture of many colours takes linear time.
 const JOINED_PATHS: usize = 64;
 
-/// Results of one frame that take long. All pictures of the figure share them.
+/// Results of one frame that take long. All pictures of the figure share them, and so do frames that share their results.
 #[derive(Default)]
 pub(crate) struct Shared {
     /// The paths of the blocks in the collapses that the figure shows.
@@ -40,7 +40,7 @@ pub(crate) struct Canvas<'a> {
     pub number: usize,
     pub options: &'a Options,
     /// The results of every frame that the pictures share.
-    pub shared: &'a [Shared],
+    pub shared: &'a [Rc<Shared>],
     pub camera: Camera,
     pub look: Look,
     /// The length of a force in the one scale of the figure, pixels per newton.
@@ -84,7 +84,7 @@ impl<'a> Canvas<'a> {
     /// Creates an empty canvas on which `view` (metres) begins at (0, 0), with `zoom` pixels per metre.
     pub fn new(
         analysis: &'a Analysis,
-        (number, shared): (usize, &'a [Shared]),
+        (number, shared): (usize, &'a [Rc<Shared>]),
         options: &'a Options,
         look: Look,
         (view, zoom): (Bounds, f64),

@@ -51,7 +51,7 @@ pub(crate) struct Sheet<'a> {
     look: Look,
     subject: Subject,
     /// The results of each frame of the analysis that its pictures share.
-    shared: Rc<Vec<Shared>>,
+    shared: Rc<Vec<Rc<Shared>>>,
     columns: usize,
     /// Width of the page, pixels.
     width: f64,
@@ -219,7 +219,7 @@ impl<'a> Sheet<'a> {
         let is_strip = analysis.frames.len() > 1 && !figure.about().shows_one_block;
         let look = Look::new(options, is_strip);
         let width = options.width.unwrap_or(look.mm(SCREEN_WIDTH));
-        let shared = Rc::new(analysis.frames.iter().map(|_| Shared::default()).collect());
+        let shared = Rc::new(analysis.of_each(|_| Rc::default()));
         let mut sheet = Sheet { analysis, figure, options, look, subject, shared, columns: 1, width, panel: width };
         sheet.columns = sheet.fitting_columns(count);
         sheet.panel = sheet.panel_width(sheet.columns);

@@ -21,14 +21,14 @@ const MIN_SPEED: f64 = 0.3;
 /// Returns the analysis with elementary mechanisms, symmetric where the structure and the motion of its proof are.
 /// `proved` is the analysis with the motions of the proofs.
 pub(crate) fn symmetric(proved: &Analysis, mut elementary: Analysis) -> Analysis {
-    for (number, frame) in elementary.frames.iter_mut().enumerate() {
+    elementary.change_each(|number, _, frame| {
         if frame.verdict == Verdict::Unstable
             && frame.robots.is_empty()
             && let Some(motions) = summed(&proved.scene, number, &proved.frames[number], &frame.mechanism)
         {
             Arc::make_mut(frame).mechanism = motions;
         }
-    }
+    });
     elementary
 }
 
