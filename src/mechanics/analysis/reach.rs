@@ -88,6 +88,10 @@ pub(super) fn add_reach<'f>(
     let Some(target) = options.reach else { return };
     let _until = DeadlineGuard::new(options.deadline);
     for (number, found) in frames {
+        if options.is_late() {
+            found.reach = Some(Reached { target, verdict: Verdict::Undecided, changes: Vec::new() });
+            continue;
+        }
         let states = scene.alone(number).map(|alone| states(&alone, target)).unwrap_or_default();
         // The frame is also undecided if its verdict depends on gaps.
         let is_open = |verdict: Verdict| verdict == Verdict::Undecided;

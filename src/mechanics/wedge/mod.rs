@@ -112,6 +112,9 @@ pub fn check_self_stress(program: &Program, given: &[[f64; 3]]) -> SelfStressChe
     if program.contacts.iter().all(|c| c.friction == 0.0) {
         return SelfStressCheck::FromRest;
     }
+    if is_late() {
+        return SelfStressCheck::Undecided(WedgingUndecided::Late);
+    }
     let given: Vec<f64> = columns(program)
         .iter()
         .filter_map(|column| match column.force {

@@ -211,6 +211,9 @@ fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
     if component.bodies.len() > MAX_BODIES {
         return Some(Placement { limited_by: PlacementLimit::TooManyBlocks, ..found });
     }
+    if is_late() {
+        return Some(Placement { limited_by: PlacementLimit::TimeLimit, ..found });
+    }
     let Some(model) = Model::new(component, &moments, &scales) else {
         return Some(Placement { limited_by: PlacementLimit::PointContact, ..found });
     };

@@ -10,6 +10,7 @@ use super::state::{EndState, Freedom};
 use super::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity};
 use crate::mechanics::analysis::margin::{END_TOL, End, Interval, Intervals, MarginKind};
 use crate::mechanics::scene::BodyId;
+use crate::mechanics::solve::is_late;
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect::FrameContext;
 
@@ -35,6 +36,7 @@ pub(in crate::mechanics::analysis) fn find(
         None => (Err(NoSensitivity::NotApplicable), Err(NoSensitivity::NotApplicable)),
         Some(Interval::Empty(_)) => (Err(NoSensitivity::Empty), Err(NoSensitivity::Empty)),
         Some(Interval::Undecided) => (Err(NoSensitivity::Unconfirmed), Err(NoSensitivity::Unconfirmed)),
+        Some(Interval::Between { .. }) if is_late() => (Err(NoSensitivity::Unsolved), Err(NoSensitivity::Unsolved)),
         Some(Interval::Between { low, high }) => {
             let corners = Corners::new(context.scene, context.frame, context.interfaces);
             let frame = Search { context, parts, kind, corners: &corners };
