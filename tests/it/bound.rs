@@ -149,6 +149,22 @@ fn unknown_names_and_keys() {
     refused("keys.json", &text, "check keys.json", "there are more problems than the 2000 in this list");
 }
 
+/// Load cases share the limit of placed blocks and have one of their own, and their cost does not grow with the square of
+/// their number.
+#[test]
+fn very_many_load_cases() {
+    let cases = |count: usize| (0..count).map(|i| json!({ "id": format!("c{i}") })).collect::<Vec<_>>();
+    let mut file = json!({ "drystone": 1, "blocks": [{ "id": "a", "polygon": square(0.0) }], "cases": cases(20_000),
+        "loads": vec![json!({ "block": "a", "torque": 0 }); 20_000] });
+    let words = "20000 loads in 20000 load cases are 400000000 loads, and at most 1000000 are allowed";
+    refused("loads.json", &file.to_string(), "check loads.json", words);
+    (file["loads"], file["steps"]) = (json!([]), json!(vec![json!({}); 50_000]));
+    refused("empty.json", &file.to_string(), "check empty.json", "contain more than 1000000 blocks and grips in total");
+    (file["steps"], file["cases"]) = (json!([]), json!(cases(10_000)));
+    let ran = run("cases.json", &file.to_string(), "check cases.json -q");
+    assert_eq!(ran.code, Some(1), "{}", ran.messages);
+}
+
 #[test]
 fn very_many_crossings() {
     // A star whose every side crosses others.

@@ -94,7 +94,7 @@ fn frames_in_the_same_state_share_their_results() {
         // They share what is added later too: motions for drawing, and what is proved exactly. A certificate has them all.
         shared(&analysis.frames);
         shared(&analysis.elementary().frames);
-        let certificate = Certificate::new(&mut analysis, String::new());
+        let certificate = Certificate::new(&mut analysis, String::new(), false);
         let frames = &analysis.frames;
         shared(frames);
         assert!(frames.iter().all(|frame| frame.exact == Some(true)));

@@ -61,10 +61,15 @@ impl CaseScenes {
 }
 
 impl Scene {
-    /// Returns the scene in one load case: with the factors on its weights and loads, and without cases.
-    pub(crate) fn in_case(&self, case: &Case) -> Scene {
+    /// Returns each load case, and the scene in it: with the factors on its weights and loads, and without cases.
+    pub(crate) fn in_cases(&self) -> impl Iterator<Item = (&Case, Scene)> {
+        // If the scene of each case were copied with all cases, many cases would take quadratic time.
+        let without_cases = Scene { cases: Vec::new(), ..self.clone() };
+        self.cases.iter().map(move |case| (case, without_cases.in_case(case)))
+    }
+
+    fn in_case(&self, case: &Case) -> Scene {
         let mut scene = self.clone();
-        scene.cases.clear();
         for block in &mut scene.blocks {
             block.weight *= case.weights;
         }
@@ -94,11 +99,11 @@ impl Analysis {
         let (mut frames, mut scenes, mut notes) = (Vec::<Arc<FrameAnalysis>>::new(), Vec::new(), Vec::new());
         let mut cases: Vec<LoadCases> = Vec::new();
         let mut latest: Option<Analysis> = None;
-        for (k, case) in scene.cases.iter().enumerate() {
+        for (k, (case, in_case)) in scene.in_cases().enumerate() {
             // If nothing was decided before the deadline, nothing is decided in the other cases either.
             let is_undecided = |found: &Analysis| found.frames.iter().all(|f| f.verdict == Verdict::Undecided);
             if !(options.is_late() && latest.as_ref().is_some_and(is_undecided)) {
-                latest = Some(Analysis::with(scene.in_case(case), &alone));
+                latest = Some(Analysis::with(in_case, &alone));
             }
             let Some(found) = &mut latest else { continue };
             if k == 0 {

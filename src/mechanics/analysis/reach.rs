@@ -131,7 +131,7 @@ struct State {
 fn states(scene: &Scene, target: Reach) -> Vec<State> {
     let bases = match scene.cases.as_slice() {
         [] => vec![(scene.clone(), 1.0)],
-        cases => cases.iter().map(|case| (scene.in_case(case), case.weights)).collect(),
+        _ => scene.in_cases().map(|(case, scene)| (scene, case.weights)).collect(),
     };
     let sides: &[f64] = if target.kind == MarginKind::LoadFactor { &[1.0] } else { &[-1.0, 1.0] };
     let changes = sides.iter().map(|side| Setting::at(target.kind, side * target.value));

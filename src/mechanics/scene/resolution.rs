@@ -49,6 +49,8 @@ pub(super) fn resolve(file: &SceneFile, unread: UnreadParts) -> Result<Scene, Ve
 
 /// The largest number of corners of all bodies that use a shape.
 const MAX_CORNERS: usize = 1_000_000;
+/// The largest number of loads in all load cases together. Each case has a factor for each load.
+const MAX_CASE_LOADS: usize = 1_000_000;
 
 /// The largest number of blocks. A wall of this many takes about 5 GB of memory.
 const MAX_BLOCKS: usize = 250_000;
@@ -133,6 +135,11 @@ impl<'f> Resolution<'f> {
         let corners = self.corners_of_shapes();
         if corners > MAX_CORNERS {
             findings.add(&Trail::Top.key("shapes"), problem::message::too_many_corners(corners, MAX_CORNERS));
+            return None;
+        }
+        let (loads, cases, most) = (self.file.loads.len(), self.file.cases.len(), MAX_CASE_LOADS);
+        if loads.saturating_mul(cases) > most {
+            findings.add(&Trail::Top.key("cases"), problem::message::too_many_case_loads([loads, cases], most));
             return None;
         }
         let most = steps::MAX_PLACED_BLOCKS;

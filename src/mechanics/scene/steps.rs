@@ -76,7 +76,8 @@ pub(super) fn frames(
     let mut placed_total = 0;
     for (k, step) in steps.iter().enumerate() {
         let frame = state.execute(findings, &list.index(k), k, step, context);
-        placed_total += frame.placed.len() + frame.holds.len();
+        // A frame without blocks needs memory and time too.
+        placed_total += (frame.placed.len() + frame.holds.len()).max(1);
         frames.push(frame);
         if placed_total * cases > MAX_PLACED_BLOCKS {
             findings.add(&list.index(k), problem::message::too_many_placed(MAX_PLACED_BLOCKS));

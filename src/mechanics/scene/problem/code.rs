@@ -84,7 +84,7 @@ codes! {
     Overlap "overlap" "two bodies that are present at the same time overlap",
     TooManyCorners "too_many_corners" "the shapes of all bodies have too many corners in total",
     TooManyPairs "too_many_pairs" "too many bodies lie so close to others that they may touch, such as equal parts of the ground",
-    TooManySteps "too_many_steps" "there are too many steps or blocks, or the frames contain too many blocks in total",
+    TooManySteps "too_many_steps" "there are too many steps or blocks, the frames contain too many blocks in total, or the load cases too many loads",
     TooManyTips "too_many_tips" "in a scene with `corner_contacts`, corners of too many blocks and ground polygons meet at one point",
     PlacedTwice "placed_twice" "a block is placed or planned although it is already placed",
     NotPlaced "not_placed" "a block is removed or held although it is not placed",

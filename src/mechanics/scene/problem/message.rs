@@ -269,6 +269,17 @@ pub(in crate::mechanics::scene) fn too_many_placed(most: usize) -> Wording {
     )
 }
 
+pub(in crate::mechanics::scene) fn too_many_case_loads([loads, cases]: [usize; 2], most: usize) -> Wording {
+    new_wording(
+        Code::TooManySteps,
+        format!(
+            "{loads} loads in {cases} load cases are {} loads, and at most {most} are allowed",
+            loads.saturating_mul(cases)
+        ),
+        "use fewer loads or cases, or split the scene into several scenes",
+    )
+}
+
 pub(in crate::mechanics::scene) fn placed_twice(block: &str, since: usize, now: usize) -> Wording {
     let when = if since == now { "earlier in this step".into() } else { format!("by steps[{since}]") };
     new_wording(
