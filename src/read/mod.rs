@@ -20,6 +20,7 @@
 //! let page: Page = from_text(r#"{ "width": 180 }"#, Notation::Json, &Dialect::plain("page"), Page::read)?;
 //! ```
 
+pub mod file;
 mod given;
 pub mod mistake;
 pub mod path;

@@ -5,6 +5,7 @@
 
 use std::fmt::Write as _;
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
@@ -29,17 +30,78 @@ fn run_within(kilobytes: usize, name: &str, text: &str, arguments: &str) -> Ran 
     assert!(text.len() < 1_000_000, "{name} has {} bytes", text.len());
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join(name), text).expect("writable");
+    run_in(folder.path(), kilobytes, arguments)
+}
+
+/// Runs the program in a folder, with at most this number of kilobytes of address space.
+fn run_in(folder: &Path, kilobytes: usize, arguments: &str) -> Ran {
     let program = env!("CARGO_BIN_EXE_drystone");
     // The limit of ten seconds holds for an optimised build; the checks of a debug build take several times as long.
     let seconds = if cfg!(debug_assertions) { 60 } else { 10 };
-    let line = format!("ulimit -t {seconds}; ulimit -v {kilobytes}; exec '{program}' {arguments} >/dev/null");
+    let line = format!("ulimit -t {seconds}; ulimit -v {kilobytes}; exec '{program}' >/dev/null {arguments}");
     let ran = Command::new("sh")
         .args(["-c", &line])
-        .current_dir(folder.path())
+        .current_dir(folder)
         .env("RAYON_NUM_THREADS", "2")
         .output()
         .expect("starts");
     Ran { code: ran.status.code(), messages: String::from_utf8_lossy(&ran.stderr).into_owned() }
+}
+
+/// A file that is too large is refused with its size, the limit and a remedy, and is not read: it has more bytes than the
+/// program may have memory.
+#[test]
+fn files_of_more_than_64_mb_are_refused_unread() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let grow = |name: &str, size: u64| {
+        fs::create_dir_all(at(name).parent().expect("a folder")).expect("writable");
+        let file = fs::File::options().create(true).append(true).open(at(name)).expect("writable");
+        file.set_len(size).expect("sparse");
+    };
+    let refused = |name: &str, size: u64, arguments: &str| {
+        let Ran { code, messages } = run_in(folder.path(), 1_300_000, arguments);
+        let words =
+            format!("{size} bytes or more are too many, at most 64000000 are read; split it into smaller files");
+        let words = words.split(' ').collect::<Vec<_>>();
+        let said = messages.split([' ', '\n', '"']).filter(|word| !word.is_empty()).collect::<Vec<_>>();
+        assert!(said.windows(words.len()).any(|some| some == words), "{arguments}: {code:?} {messages}");
+        assert!(code == Some(2) && messages.contains(name), "{arguments}: {code:?} {messages}");
+    };
+    let scene = json!({ "drystone": 1, "blocks": [{ "id": "a", "polygon": square(0.0) }] }).to_string();
+    fs::write(at("good.json"), &scene).expect("writable");
+    fs::create_dir(at("kept")).expect("writable");
+    fs::write(at("kept/s.json"), &scene).expect("writable");
+    assert_eq!(run_in(folder.path(), 1_300_000, "snapshot --accept -q kept").code, Some(0));
+    fs::write(at("book.md"), "```drystone file=big.json\n```\n").expect("writable");
+
+    let size = 5_000_000_000;
+    for name in ["big.json", "big.toml", "big.svg", "big.dxf", "big.md", "in/big.json", "kept/s.txt", "set/s.json"] {
+        grow(name, size);
+    }
+    refused("big.json", size, "check big.json");
+    refused("big.toml", size, "check big.toml");
+    refused("big.json", size, "check in");
+    refused("big.json", size, "batch big.json >&2");
+    refused("big.json", size, "plan big.json");
+    refused("big.svg", size, "import big.svg");
+    refused("big.dxf", size, "import big.dxf");
+    refused("big.json", size, "render good.json -o good.svg --style big.json");
+    refused("big.toml", size, "render good.json -o good.svg --style big.toml");
+    refused("big.md", size, "markdown big.md -o out.md");
+    refused("big.json", size, "markdown book.md -o out.md");
+    refused("s.json", size, "snapshot set");
+    grow("kept/drystone-snapshots.toml", size);
+    refused("drystone-snapshots.toml", size, "snapshot kept");
+    fs::remove_file(at("kept/drystone-snapshots.toml")).expect("there");
+    // A reference that is not read is one that differs.
+    let ran = run_in(folder.path(), 1_300_000, "snapshot kept >&2");
+    assert_eq!(ran.code, Some(1), "{}", ran.messages);
+    // Streams are read up to the limit, and lines of scenes to their ends.
+    let least = 64_000_001;
+    grow("lines.ndjson", least);
+    refused("standard input", least, "check - < big.json");
+    refused("lines.ndjson", least, "batch lines.ndjson >&2");
 }
 
 #[track_caller]

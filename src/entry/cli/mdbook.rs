@@ -1,7 +1,6 @@
 //! `drystone mdbook` runs a preprocessor for mdBook that replaces scenes in the chapters by figures; `drystone markdown`
 //! does the same with one file.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
@@ -41,8 +40,7 @@ impl MdBook {
         if let Some(MdBookCommand::Supports { renderer }) = &self.command {
             return Ok(if renderer == "html" { ExitStatus::Done } else { ExitStatus::Unstable });
         }
-        let input = io::read_to_string(io::stdin().lock());
-        let input = input.map_err(|error| CliError::not_read("standard input", error))?;
+        let input = text(Path::new("-"))?;
         let drawn = book::illustrate(&input).map_err(|problems| CliError::Book(problems.0))?;
         terminal.print_bytes(drawn.as_bytes())?;
         Ok(ExitStatus::Done)
@@ -68,8 +66,7 @@ pub(crate) struct Markdown {
 
 impl Markdown {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let text = String::from_utf8(source::bytes(&self.input)?)
-            .map_err(|_| CliError::not_read(source::name(&self.input), "it is not valid UTF-8; save it as UTF-8"))?;
+        let text = text(&self.input)?;
         let (text, pictures) = book::illustrate_text(&text, &self.input, &stem_of(&self.output))
             .map_err(|problems| CliError::Book(problems.0))?;
         let folder = self.output.parent().unwrap_or(Path::new(""));
@@ -86,4 +83,10 @@ impl Markdown {
         terminal.note(&format!("{}: {count} {}", self.output.display(), if count == 1 { "figure" } else { "figures" }));
         Ok(ExitStatus::Done)
     }
+}
+
+/// Reads a text file, or standard input for `-`.
+fn text(path: &Path) -> Result<String, CliError> {
+    String::from_utf8(source::bytes(path)?)
+        .map_err(|_| CliError::not_read(source::name(path), "it is not valid UTF-8; save it as UTF-8"))
 }

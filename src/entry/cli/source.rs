@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::fs;
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::channel;
@@ -17,6 +17,7 @@ use crate::mechanics::scene::{Scene, SceneError, isolate};
 use crate::pictures::output::attachment::{file_in, is_picture};
 use crate::products::snapshot::discovery::looks_like_scene;
 use crate::products::snapshot::setting::matches_pattern;
+use crate::read::file;
 
 /// Reading a scene may exceed the time limit by this duration. A program with debug assertions is many times slower.
 const GRACE: Duration = Duration::from_millis(if cfg!(debug_assertions) { 10_000 } else { 400 });
@@ -174,7 +175,7 @@ fn sorted(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), CliError> {
             return Err(CliError::not_read(name(path), "the folder contains no .json files"));
         }
         // A file that cannot be read is reported later.
-        let is_scene = |file: &PathBuf| fs::read(file).map_or(true, |bytes| looks_like_scene(&bytes));
+        let is_scene = |path: &PathBuf| file::bytes(path).map_or(true, |bytes| looks_like_scene(&bytes));
         let (mut scenes, mut others): (Vec<PathBuf>, Vec<PathBuf>) = found.into_iter().partition(is_scene);
         if scenes.is_empty() {
             return Err(CliError::not_read(
@@ -191,28 +192,10 @@ fn sorted(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), CliError> {
 /// The extensions of drawings, which only `import` reads.
 const DRAWINGS: [&str; 3] = ["dxf", "svg", "wkt"];
 
-/// The largest size of a file. Reading lists of very short numbers takes about 70 times the size in memory.
-const MAX_BYTES: u64 = 64_000_000;
-
 /// Reads a file, or standard input for `-`.
 pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, CliError> {
-    let size = fs::metadata(path).map_or(0, |file| file.len());
-    let read = if path == Path::new("-") {
-        let mut bytes = Vec::new();
-        io::stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes).map(|_| bytes)
-    } else if size <= MAX_BYTES {
-        fs::read(path)
-    } else {
-        Ok(Vec::new())
-    };
-    let bytes = read.map_err(|error| CliError::not_read(name(path), error))?;
-    match size.max(bytes.len() as u64) {
-        size if size <= MAX_BYTES => Ok(bytes),
-        size => Err(CliError::not_read(
-            name(path),
-            format!("{size} bytes or more are too many, at most {MAX_BYTES} are read; split it into several scenes"),
-        )),
-    }
+    let read = if path == Path::new("-") { file::all(io::stdin().lock()) } else { file::bytes(path) };
+    read.map_err(|error| CliError::not_read(name(path), error))
 }
 
 /// Reads a scene file, or the one that a PNG or a PDF carries.

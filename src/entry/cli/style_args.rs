@@ -1,12 +1,12 @@
 //! [`StyleArgs`]: the options `--theme` and `--style`, which `render`, `batch`, `report`, `figures` and `shapes` share.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::entry::cli::error::CliError;
 use crate::entry::value::ThemeName;
 use crate::pictures::drawing::Theme;
 use crate::pictures::drawing::style::format::Notation;
+use crate::read::file;
 use crate::text::{Word, typed_word};
 
 request! {
@@ -102,6 +102,6 @@ fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, CliError> {
             )));
         }
     };
-    let text = fs::read_to_string(path).map_err(|error| CliError::not_read(&name, error))?;
+    let text = file::text(path).map_err(|error| CliError::not_read(&name, error))?;
     Theme::read(&text, notation, base).map_err(|problems| CliError::Style { name, problems })
 }

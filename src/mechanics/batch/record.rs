@@ -8,9 +8,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::ByteSize;
+use crate::read::file;
 
-/// The longest record in bytes, 256 MiB. The limit keeps a line that never ends from filling the memory.
-const MAX_RECORD_BYTES: usize = 1 << 28;
+/// The longest record in bytes. The limit keeps a line that never ends from filling the memory.
+const MAX_RECORD_BYTES: usize = file::MAX_BYTES as usize;
 
 /// The text of one scene, not parsed yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -95,14 +96,8 @@ impl Records {
     }
 
     fn whole(&self, path: PathBuf) -> Record {
-        let mut bytes = Vec::new();
-        let read = File::open(&path).and_then(|file| file.take(MAX_RECORD_BYTES as u64 + 1).read_to_end(&mut bytes));
-        self.add(bytes.len());
-        let bytes = match read {
-            Ok(size) if size > MAX_RECORD_BYTES => Err(too_long()),
-            Ok(_) => Ok(bytes),
-            Err(error) => Err(unreadable(&error)),
-        };
+        let bytes = file::bytes(&path).map_err(|error| unreadable(&error));
+        self.add(bytes.as_ref().map_or(0, Vec::len));
         Record { file: Some(path), line: None, bytes }
     }
 }
@@ -183,16 +178,12 @@ fn next_line(reader: &mut impl BufRead) -> (usize, Result<Vec<u8>, String>) {
         }
     }
     if size - usize::from(has_end) > MAX_RECORD_BYTES {
-        return (size, Err(too_long()));
+        return (size, Err(unreadable(&file::too_large(size as u64))));
     }
     if line.last() == Some(&b'\r') {
         line.pop();
     }
     (size, Ok(line))
-}
-
-fn too_long() -> String {
-    format!("it is longer than {} MiB", MAX_RECORD_BYTES >> 20)
 }
 
 fn unreadable(error: &io::Error) -> String {
@@ -213,7 +204,7 @@ mod tests {
         let input = Input::lines(None, Box::new(endless(MAX_RECORD_BYTES + 5)));
         let records: Vec<Record> = Records::new(vec![input]).collect();
         assert_eq!(records.len(), 2);
-        assert!(records[0].bytes.as_ref().is_err_and(|why| why.contains("256 MiB")));
+        assert!(records[0].bytes.as_ref().is_err_and(|why| why.contains("64000006 bytes or more are too many")));
         assert_eq!(records[1].bytes, Ok(b"after".to_vec()));
     }
 

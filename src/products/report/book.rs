@@ -15,7 +15,6 @@
 //! | `amounts` | the arrows have labels with their magnitudes, in frames with at most 60 blocks |
 //! | `nocaption` | no caption below the figure |
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag};
@@ -26,6 +25,7 @@ use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::{Drawing, Theme};
 use crate::pictures::output::svg;
 use crate::products::figure::{self, Kind};
+use crate::read::file;
 use crate::text;
 
 /// Code blocks whose opening fence is followed by this word contain a scene, and are replaced by its figure.
@@ -236,9 +236,9 @@ impl FigureRequest {
 fn figure(words: &str, body: &str, chapter: &Path) -> Result<Figure, String> {
     let request = FigureRequest::read(words)?;
     let text = match &request.file {
-        Some(file) => {
-            let path = chapter.parent().unwrap_or(Path::new("")).join(file);
-            fs::read_to_string(&path).map_err(|e| text::line(&format!("cannot read {}: {e}", path.display())))?
+        Some(named) => {
+            let path = chapter.parent().unwrap_or(Path::new("")).join(named);
+            file::text(&path).map_err(|e| text::line(&format!("cannot read {}: {e}", path.display())))?
         }
         None => body.to_owned(),
     };

@@ -11,6 +11,7 @@ use super::reference::{HASH_WORDS, Part, is_reference_suffix, parts};
 use super::setting::{self, SETTINGS_FILE, Settings, matches_pattern};
 use super::store;
 use crate::mechanics::scene::{Code, Scene, SceneError, isolate};
+use crate::read;
 
 /// A scene to check.
 #[derive(Clone, Debug)]
@@ -107,7 +108,7 @@ pub(super) fn shown(path: &Path) -> String {
 /// Messages that begin with the path of the file, or name it.
 pub(super) fn settings_in(file: &Path) -> Result<Settings, Vec<String>> {
     let path = file.display();
-    let text = fs::read_to_string(file).map_err(|error| vec![format!("cannot read {path}: {error}")])?;
+    let text = read::file::text(file).map_err(|error| vec![format!("cannot read {path}: {error}")])?;
     Settings::read(&text).map_err(|problems| problems.iter().map(|problem| format!("{path}:{problem}")).collect())
 }
 
@@ -228,7 +229,7 @@ impl SnapshotSearch {
         if settings.ignore.iter().any(ignored) {
             return None;
         }
-        let bytes = match fs::read(path) {
+        let bytes = match read::file::bytes(path) {
             Ok(bytes) => bytes,
             Err(error) => {
                 self.report_unreadable(path, &error);

@@ -12,6 +12,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::pictures::output::file::{Existing, WriteError, write_whole};
+use crate::read::file;
 
 /// True if the program runs in continuous integration, where nobody can review a new reference: the environment
 /// variable `CI` has a value other than `false`, `no`, `0` or the empty text.
@@ -123,7 +124,7 @@ pub(super) fn remove(path: &Path) {
 /// # Errors
 /// The error of the operating system, if the file exists but cannot be read.
 pub(super) fn read(path: &Path) -> io::Result<Option<Vec<u8>>> {
-    match fs::read(path) {
+    match file::bytes(path) {
         Ok(bytes) => Ok(Some(bytes)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error),

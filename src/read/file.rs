@@ -1,0 +1,38 @@
+//! [`bytes`] and [`text`]: read a whole file that may come from a stranger, up to a limit.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// The largest size of a file in bytes. Reading lists of very short numbers takes about 70 times the size in memory.
+pub const MAX_BYTES: u64 = 64_000_000;
+
+/// Reads a file. If it is too large, it is not read, and the error says its size, the limit and what to do.
+pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    match file.metadata()?.len() {
+        size if size > MAX_BYTES => Err(too_large(size)),
+        _ => all(file),
+    }
+}
+
+/// Reads a text file in UTF-8, as [`bytes`] does.
+pub fn text(path: &Path) -> io::Result<String> {
+    let not_utf8 = |_| io::Error::new(io::ErrorKind::InvalidData, "it is not valid UTF-8; save it as UTF-8");
+    String::from_utf8(bytes(path)?).map_err(not_utf8)
+}
+
+/// Reads a stream to its end, but no more than the limit.
+pub fn all(stream: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    match stream.take(MAX_BYTES + 1).read_to_end(&mut bytes)? as u64 {
+        size if size > MAX_BYTES => Err(too_large(size)),
+        _ => Ok(bytes),
+    }
+}
+
+/// The error for a file, or for a line with one scene, of at least this number of bytes.
+pub fn too_large(size: u64) -> io::Error {
+    let words = format!("{size} bytes or more are too many, at most {MAX_BYTES} are read; split it into smaller files");
+    io::Error::new(io::ErrorKind::FileTooLarge, words)
+}
