@@ -264,9 +264,9 @@ fn failures(analysis: &Analysis, numbers: &[usize]) -> Table {
     let all: Vec<(usize, &Failure)> = numbers.iter().copied().flat_map(of).collect();
     let mut rows = Rows::new(all);
     rows.word("kind", |f| f.word().into());
-    rows.bodies(scene, |f| match **f {
-        Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => bodies.map(Some),
-        Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. } => [Some(BodyId::Block(block)), None],
+    rows.bodies(scene, |f| {
+        let (first, second) = f.bodies();
+        [Some(first), second]
     });
     rows.word("robot", |f| {
         let robot = f.robot().map(|r| scene.robots()[r.0].id.clone());

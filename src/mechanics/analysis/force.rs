@@ -139,20 +139,23 @@ impl Failure {
 
     /// Returns the missing force (N) and torque (N·m) on a body. `None` if this failure does not concern the body.
     pub fn on(&self, body: BodyId) -> Option<(Vector, f64)> {
-        let sign = match *self {
-            Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => match bodies {
-                [a, _] if a == body => 1.0,
-                [_, b] if b == body => -1.0,
-                _ => return None,
-            },
-            Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. } => {
-                if BodyId::Block(block) != body {
-                    return None;
-                }
-                1.0
-            }
+        let (first, second) = self.bodies();
+        let sign = match () {
+            () if first == body => 1.0,
+            () if second == Some(body) => -1.0,
+            () => return None,
         };
         Some((self.force() * sign, self.torque()))
+    }
+
+    /// Returns the two bodies of a joint, or only the block that a robot holds.
+    pub(crate) fn bodies(&self) -> (BodyId, Option<BodyId>) {
+        match *self {
+            Failure::Tension { bodies: [first, second], .. } | Failure::Friction { bodies: [first, second], .. } => {
+                (first, Some(second))
+            }
+            Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. } => (BodyId::Block(block), None),
+        }
     }
 
     /// Returns the robot whose limit the missing force or torque exceeds. `None` for a failure at a joint.

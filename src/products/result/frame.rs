@@ -114,16 +114,13 @@ fn robot<'a>(scene: &'a Scene, robot: &RobotForce) -> Json<'a> {
 
 /// A failure. It has either `bodies` or `robot` and `holds`, and either `force` or `torque`.
 fn failure<'a>(scene: &'a Scene, failure: &Failure) -> Json<'a> {
-    let (bodies, holds) = match *failure {
-        Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => (Some(bodies), None),
-        Failure::RobotForce { block, .. } | Failure::RobotTorque { block, .. } => (None, Some(block)),
-    };
+    let (first, second) = failure.bodies();
     let is_torque = matches!(failure, Failure::RobotTorque { .. });
     object! {
         kind: failure.word(),
-        bodies: bodies.map(|bodies| bodies.map(|body| scene.name(body))),
+        bodies: second.map(|second| [first, second].map(|body| scene.name(body))),
         robot: failure.robot().map(|robot| &scene.robots[robot.0].id),
-        holds: holds.map(|block| &scene.blocks[block.0].id),
+        holds: second.is_none().then(|| scene.name(first)),
         at: failure.at(),
         force: (!is_torque).then(|| failure.force()),
         torque: is_torque.then(|| failure.torque()),

@@ -46,7 +46,6 @@ pub use schema::schema;
 
 use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::{Scene, ToleranceSource};
-pub use crate::products::wording::verdict::word;
 
 /// Whether a result contains solving times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

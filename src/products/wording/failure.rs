@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::number::{NO_BREAK, listed, place, quantity};
 use crate::mechanics::analysis::{Failure, FrameAnalysis};
-use crate::mechanics::scene::{BlockId, BodyId, Scene, Unit};
+use crate::mechanics::scene::{BlockId, BodyId, RobotId, Scene};
 use crate::mechanics::statics::interface::{ContactKind, Interfaces};
 use crate::text::first_of;
 
@@ -13,12 +13,7 @@ const MAX_LISTED_BLOCKS: usize = 6;
 
 /// Returns the magnitude of the force (N) or torque (N·m) that is missing at a failure.
 pub fn amount(failure: &Failure) -> f64 {
-    match failure {
-        Failure::Tension { force, .. } | Failure::Friction { force, .. } | Failure::RobotForce { force, .. } => {
-            force.norm()
-        }
-        Failure::RobotTorque { torque, .. } => torque.abs(),
-    }
+    failure.force().norm() + failure.torque().abs()
 }
 
 /// Returns the failures of a frame, sorted by the magnitude of the missing force, largest first. Equal failures keep
@@ -54,92 +49,71 @@ pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
     format!("{a} and {b}")
 }
 
+/// Writes the magnitude of the missing force or torque with its unit.
+fn stated(scene: &Scene, failure: &Failure) -> String {
+    let is_torque = matches!(failure, Failure::RobotTorque { .. });
+    quantity(amount(failure), if is_torque { scene.units.torque() } else { scene.units.force() })
+}
+
 /// Describes a failure, its position and the missing force, as a sentence without a full stop.
 pub fn sentence(scene: &Scene, failure: &Failure) -> String {
-    let units = scene.units;
-    let newtons = |value: f64| quantity(value, units.force());
-    // A component that is a rounding error of the other one is 0.
-    let part = |value: f64, whole: f64| newtons(if value.abs() <= 1e-9 * whole { 0.0 } else { value });
+    let (stated, at) = (stated(scene, failure), place(failure.at(), scene.units));
     match *failure {
-        Failure::Tension { bodies: [a, b], at, force } => format!(
-            "{} comes off {} at {}: holding them together would need a pull of {}",
-            scene.name(a),
-            scene.name(b),
-            place(at, units),
-            newtons(force.norm())
-        ),
-        Failure::Friction { bodies: [a, b], at, force } => format!(
-            "{} slides along {} at {}: stopping it would need {} more than friction can give",
-            scene.name(a),
-            scene.name(b),
-            place(at, units),
-            newtons(force.norm())
-        ),
-        Failure::RobotForce { robot, block, force, .. } => format!(
-            "robot {} cannot hold {}: it would need an additional force of ({}, {}) beyond its limits",
-            scene.robots[robot.0].id,
-            scene.blocks[block.0].id,
-            part(force.x, force.norm()),
-            part(force.y, force.norm())
-        ),
+        Failure::Tension { bodies, .. } => {
+            let [a, b] = bodies.map(|body| scene.name(body));
+            format!("{a} comes off {b} at {at}: holding them together would need a pull of {stated}")
+        }
+        Failure::Friction { bodies, .. } => {
+            let [a, b] = bodies.map(|body| scene.name(body));
+            format!("{a} slides along {b} at {at}: stopping it would need {stated} more than friction can give")
+        }
+        Failure::RobotForce { robot, block, force, .. } => {
+            // A component that is a rounding error of the other one is 0.
+            let part = |value: f64| if value.abs() <= 1e-9 * force.norm() { 0.0 } else { value };
+            format!(
+                "robot {} cannot hold {}: it would need an additional force of ({}, {}) beyond its limits",
+                scene.robots[robot.0].id,
+                scene.blocks[block.0].id,
+                quantity(part(force.x), scene.units.force()),
+                quantity(part(force.y), scene.units.force())
+            )
+        }
         Failure::RobotTorque { robot, block, torque, .. } => format!(
-            "robot {} cannot hold {}: it would need an additional {} torque of {} beyond its limit",
+            "robot {} cannot hold {}: it would need an additional {} torque of {stated} beyond its limit",
             scene.robots[robot.0].id,
             scene.blocks[block.0].id,
-            if torque < 0.0 { "clockwise" } else { "anticlockwise" },
-            quantity(torque.abs(), units.torque())
+            if torque < 0.0 { "clockwise" } else { "anticlockwise" }
         ),
     }
 }
 
 /// Describes the missing force of a failure as a noun phrase, for a list: `a pull of 8 N between a and b`.
 pub fn missing_phrase(scene: &Scene, failure: &Failure) -> String {
+    let stated = stated(scene, failure).replace(' ', &NO_BREAK.to_string());
+    let robot = |robot: &RobotId| format!("robot{NO_BREAK}{}", scene.robots[robot.0].id);
     match failure {
-        Failure::Tension { bodies, force, .. } => {
-            format!("a pull of {} between {}", unbroken(force.norm(), scene.units.force()), pair(scene, *bodies))
-        }
-        Failure::Friction { bodies, force, .. } => {
-            format!("friction of {} between {}", unbroken(force.norm(), scene.units.force()), pair(scene, *bodies))
-        }
-        Failure::RobotForce { robot, force, .. } => format!(
-            "a force of {} from robot{NO_BREAK}{}",
-            unbroken(force.norm(), scene.units.force()),
-            scene.robots[robot.0].id
-        ),
-        Failure::RobotTorque { robot, torque, .. } => format!(
-            "a torque of {} from robot{NO_BREAK}{}",
-            unbroken(torque.abs(), scene.units.torque()),
-            scene.robots[robot.0].id
-        ),
+        Failure::Tension { bodies, .. } => format!("a pull of {stated} between {}", pair(scene, *bodies)),
+        Failure::Friction { bodies, .. } => format!("friction of {stated} between {}", pair(scene, *bodies)),
+        Failure::RobotForce { robot: id, .. } => format!("a force of {stated} from {}", robot(id)),
+        Failure::RobotTorque { robot: id, .. } => format!("a torque of {stated} from {}", robot(id)),
     }
 }
 
 /// Describes the missing force of a failure as a clause: `block a would have to stick to block b with 8 N`.
 pub fn missing_sentence(scene: &Scene, failure: &Failure) -> String {
-    let named = |id: &BodyId| named(scene, *id);
+    let (stated, named) = (stated(scene, failure), |id: &BodyId| named(scene, *id));
+    let robot = |robot: &RobotId| &scene.robots[robot.0].id;
     match failure {
-        Failure::Tension { bodies: [a, b], force, .. } => format!(
-            "{} would have to stick to {} with {}",
-            named(a),
-            named(b),
-            quantity(force.norm(), scene.units.force())
-        ),
-        Failure::Friction { bodies: [a, b], force, .. } => format!(
-            "{} slides along {}, and friction would have to give {} more",
-            named(a),
-            named(b),
-            quantity(force.norm(), scene.units.force())
-        ),
-        Failure::RobotForce { robot, force, .. } => format!(
-            "robot {} would have to give {} more",
-            scene.robots[robot.0].id,
-            quantity(force.norm(), scene.units.force())
-        ),
-        Failure::RobotTorque { robot, torque, .. } => format!(
-            "robot {} would have to give {} more torque",
-            scene.robots[robot.0].id,
-            quantity(torque.abs(), scene.units.torque())
-        ),
+        Failure::Tension { bodies: [a, b], .. } => {
+            format!("{} would have to stick to {} with {stated}", named(a), named(b))
+        }
+        Failure::Friction { bodies: [a, b], .. } => {
+            format!("{} slides along {}, and friction would have to give {stated} more", named(a), named(b))
+        }
+        Failure::RobotForce { robot: id, .. } => format!("robot {} would have to give {stated} more", robot(id)),
+        Failure::RobotTorque { robot: id, .. } => {
+            format!("robot {} would have to give {stated} more torque", robot(id))
+        }
     }
 }
 
@@ -212,8 +186,8 @@ fn reached(frame_analysis: &FrameAnalysis) -> BTreeSet<BlockId> {
                 neighbours.entry(a).or_default().push(b);
                 neighbours.entry(b).or_default().push(a);
             }
-            [BodyId::Block(block), BodyId::Ground(_)] | [BodyId::Ground(_), BodyId::Block(block)] => next.push(block),
-            [BodyId::Ground(_), BodyId::Ground(_)] => {}
+            [BodyId::Block(block), BodyId::Ground(_)] => next.push(block),
+            _ => {}
         }
     }
     let mut reached = BTreeSet::new();
@@ -233,9 +207,4 @@ pub fn shortened(mut parts: Vec<String>, max: usize) -> Vec<String> {
         parts.push(format!("{left} more"));
     }
     parts
-}
-
-/// Writes a value with its unit, joined by a no-break space.
-fn unbroken(value: f64, unit: Unit) -> String {
-    quantity(value, unit).replace(' ', &NO_BREAK.to_string())
 }

@@ -10,12 +10,6 @@ const MAX_FAILURES_IN_SENTENCE: usize = 4;
 /// Largest number of failures that the line below a figure names. This line has less space.
 const MAX_FAILURES_BELOW_FIGURE: usize = 3;
 
-/// Returns the word for a verdict in JSON results: `stable`, `unstable`, `undecided`. Text for people uses `plain`
-/// and `counted`.
-pub fn word(verdict: Verdict) -> &'static str {
-    verdict.word()
-}
-
 /// Writes how many frames or scenes have a verdict: `1 stands`, `3 fall`.
 pub fn counted(count: usize, verdict: Verdict) -> String {
     let word = match (verdict, count) {

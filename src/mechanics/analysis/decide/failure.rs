@@ -132,9 +132,8 @@ impl Component<'_> {
 /// torque is divided by `length`, m.
 pub(super) fn total(failures: &[Failure], length: f64) -> f64 {
     let sizes = failures.iter().map(|failure| match failure {
-        Failure::Tension { force, .. } | Failure::Friction { force, .. } => force.norm(),
-        Failure::RobotForce { force, .. } => force.x.abs() + force.y.abs(),
-        Failure::RobotTorque { torque, .. } => torque.abs() / length,
+        Failure::RobotTorque { .. } => failure.amount() / length,
+        _ => failure.amount(),
     });
     sizes.sum()
 }
