@@ -198,8 +198,7 @@ fn by_level(scene: &Scene, accuracy: Accuracy, tolerance: f64) -> Outcome {
     let Some(frame) = analysis.frames.first() else { return NOTHING };
     let stands = frame.verdict == Verdict::Stable;
     let falls = frame.verdict == Verdict::Unstable && frame.unsupported.is_empty();
-    let contacts = frame.contacts.iter().map(|c| c.resultant.force.norm());
-    let largest = contacts.chain(frame.robots.iter().map(|r| r.force.norm())).fold(0.0, f64::max);
+    let largest = frame.largest_force();
     let bound = frame.force_bound.filter(|_| stands && frame.total_force > 0.0);
     let (imbalance, violation) = match frame.proof {
         Proof::Forces { worst_imbalance, .. } => (Some(worst_imbalance), None),

@@ -24,6 +24,7 @@ mod placement;
 mod removable;
 mod repeat;
 mod wedged;
+pub(crate) mod acting;
 mod thrust_states;
 mod movement;
 mod reach;
@@ -43,6 +44,7 @@ pub use crate::mechanics::statics::interface::{ContactKind, Interface};
 #[doc(inline)]
 pub use crate::mechanics::statics::resultant::Resultant;
 pub use crate::mechanics::wedge::Slide;
+pub(crate) use acting::{ActingForce, ForceKind, acting_forces, by_block};
 pub(crate) use capacity::capacity_of;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use capacity::typed_capacity;

@@ -152,7 +152,7 @@ fn outcome(scene: &Scene, found: &FrameAnalysis, components: &[Assembly], moveme
     }
     let on_support = touching.clone().map(|(number, _)| {
         let resultant = state.contacts[number].resultant;
-        let force = if matches!(resultant.on, BodyId::Block(_)) { -resultant.force } else { resultant.force };
+        let force = -resultant.force;
         (force, force.dot(&movement.at(resultant.at)))
     });
     let (force, work) = on_support.fold((Vector::zeros(), 0.0), |sum, own| (sum.0 + own.0, sum.1 + own.1));

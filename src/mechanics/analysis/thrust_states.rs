@@ -141,18 +141,17 @@ fn thrust(scene: &Scene, contacts: &[Contact]) -> f64 {
     let supports = supports(contacts);
     let places = supports.iter().map(|(_, c)| across.dot(&c.interface.middle().coords));
     let middle = middle(places.clone());
-    let pushes = supports.iter().zip(places).map(|((block, contact), place)| {
-        let on_block = contact.resultant.on == BodyId::Block(*block);
-        let force = contact.resultant.force * if on_block { 1.0 } else { -1.0 };
-        force.dot(&across) * if place < middle { 1.0 } else { -1.0 }
-    });
+    let pushes = supports
+        .iter()
+        .zip(places)
+        .map(|((_, contact), place)| contact.resultant.force.dot(&across) * if place < middle { 1.0 } else { -1.0 });
     0.5 * pushes.sum::<f64>()
 }
 
 /// Returns the contacts between a block and the ground, each with its block.
 fn supports(contacts: &[Contact]) -> Vec<(BlockId, &Contact)> {
     let support = |contact: &'_ Contact| match contact.interface.bodies {
-        [BodyId::Block(block), BodyId::Ground(_)] | [BodyId::Ground(_), BodyId::Block(block)] => Some(block),
+        [BodyId::Block(block), BodyId::Ground(_)] => Some(block),
         _ => None,
     };
     contacts.iter().filter_map(|contact| Some((support(contact)?, contact))).collect()

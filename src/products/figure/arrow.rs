@@ -9,64 +9,11 @@
 
 use super::design::{unit, zoomed_view};
 use super::option::{ForceStyle, Normalisation, Options};
-use crate::geometry::{Point, Vector, quarter_turn};
-use crate::mechanics::analysis::{Analysis, Contact, Failure, FrameAnalysis};
-use crate::mechanics::scene::{BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
+use crate::geometry::{Point, Vector};
+use crate::mechanics::analysis::{ActingForce, Analysis, Contact, ForceKind, FrameAnalysis, acting_forces};
+use crate::mechanics::scene::{BlockId, BodyId, RobotId, Scene};
 use crate::pictures::drawing::Colour;
 use crate::pictures::drawing::arrow::HEAD_LENGTH;
-
-/// What a straight arrow shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ArrowKind {
-    /// The weight of a block.
-    Weight,
-    /// A load on a block.
-    Load,
-    /// The sum of normal and friction force, exerted by this body.
-    Contact(BodyId),
-    /// The normal force of an interface, exerted by this body.
-    Normal(BodyId),
-    /// The friction force of an interface, exerted by this body.
-    Friction(BodyId),
-    /// A robot's force.
-    Robot(RobotId),
-    /// One of the two vertical arrows that show the torque of a robot, in the style of the thesis.
-    RobotTorque(RobotId),
-    /// A missing pull from this body: adhesion that the structure would need.
-    MissingPull(BodyId),
-    /// Missing friction from this body.
-    MissingFriction(BodyId),
-    /// A missing force of a robot: the part of the needed force that exceeds the robot's limits.
-    MissingRobotForce(RobotId),
-    /// One of the two vertical arrows that show a torque beyond a robot's limit, in the style of the thesis.
-    MissingTorque(RobotId),
-}
-
-impl ArrowKind {
-    /// Returns the body that exerts the force: a block or the ground. Returns `None` for weights, loads, and forces and
-    /// torques of robots.
-    pub fn partner(self) -> Option<BodyId> {
-        match self {
-            ArrowKind::Contact(from)
-            | ArrowKind::Normal(from)
-            | ArrowKind::Friction(from)
-            | ArrowKind::MissingPull(from)
-            | ArrowKind::MissingFriction(from) => Some(from),
-            _ => None,
-        }
-    }
-
-    /// True if the arrow shows a missing force or torque.
-    pub fn is_failure(self) -> bool {
-        matches!(
-            self,
-            ArrowKind::MissingPull(_)
-                | ArrowKind::MissingFriction(_)
-                | ArrowKind::MissingRobotForce(_)
-                | ArrowKind::MissingTorque(_)
-        )
-    }
-}
 
 /// Least length from tail to tip of an arrow that is visible, pixels. Shorter arrows are not drawn.
 pub(crate) const MIN_VISIBLE_ARROW: f64 = 2.0;
@@ -100,7 +47,7 @@ pub struct ForceArrow {
     /// The position of the head.
     pub head: Head,
     /// The kind of force that the arrow shows.
-    pub kind: ArrowKind,
+    pub kind: ForceKind,
 }
 
 impl ForceArrow {
@@ -187,38 +134,17 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
     let edge = unit(scene, options.zoom);
     let near = options.zoom.map(|block| zoomed_view(scene, block));
     let shown = |at: Point| near.is_none_or(|near| near.contains(at));
-    let blocks = frame.placed.iter().map(|b| &scene.blocks[b.0]);
-    let blocks = blocks.filter(|b| shown(b.centroid));
-    let weights = blocks.map(|b| b.weight);
-    let mut most = weights.fold(0.0, f64::max);
-    match options.normalisation {
-        Normalisation::Source => {
-            for contact in frame_analysis.contacts.iter().filter(|c| shown(c.resultant.at)) {
-                most = contact.normal_forces.iter().copied().fold(most, f64::max).max(contact.friction_force.abs());
-            }
-            for robot in frame_analysis.robots.iter().filter(|r| shown(r.at)) {
-                most = most.max(robot.force.x.abs()).max(robot.force.y.abs()).max(robot.torque.abs() / edge);
-            }
-        }
-        Normalisation::Drawn => {
-            for contact in frame_analysis.contacts.iter().filter(|c| shown(c.resultant.at)) {
-                for part in parts(contact, options.style) {
-                    most = most.max(part.force.norm());
-                }
-            }
-            for robot in frame_analysis.robots.iter().filter(|r| shown(r.at)) {
-                most = most.max(robot.force.norm()).max(robot.torque.abs() / edge);
-            }
-            for failure in frame_analysis.failures.iter().filter(|f| shown(f.at())) {
-                most = most.max(failure.force().norm()).max(failure.torque().abs() / edge);
-            }
-        }
-    }
-    let loads = scene.loads.iter();
-    for load in loads.filter(|l| frame.placed.contains(&l.block) && shown(l.at)) {
-        most = most.max(load.force.norm()).max(load.torque.abs() / edge);
-    }
-    most
+    let is_source = options.normalisation == Normalisation::Source;
+    let of_contact = |contact: &Contact| if is_source { Vec::new() } else { parts(contact, options.style) };
+    let size = |acting: &ActingForce| match acting.kind {
+        kind if is_source && kind.is_failure() => 0.0,
+        ForceKind::Robot(_) if is_source => acting.force.amax().max(acting.torque.abs() / edge),
+        _ => acting.force.norm().max(acting.torque.abs() / edge),
+    };
+    let forces = acting_forces(scene, frame, frame_analysis, of_contact);
+    let contacts = frame_analysis.contacts.iter().filter(|contact| is_source && shown(contact.resultant.at));
+    let forces = forces.iter().filter(|acting| shown(acting.at)).map(size);
+    forces.chain(contacts.map(largest_unknown)).fold(0.0, f64::max)
 }
 
 /// Returns all arrows of frame `frame` (from 0). The arrow of a force of `newtons_per_unit` newtons is one unit length
@@ -237,42 +163,24 @@ pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_u
     let scene = analysis.scene_of(frame);
     let options = &options.for_scene(scene);
     let edge = unit(scene, options.zoom);
-    let maker = ArrowMaker { scene, options, edge, metres_per_newton: edge / newtons_per_unit };
-    maker.blocks(placed, frame_analysis, &mut marks);
-    maker.robots(frame_analysis, &mut marks);
-    maker.failures(frame_analysis, &mut marks);
+    let is_source = options.normalisation == Normalisation::Source;
+    let largest = if is_source { largest_forces_on_blocks(scene, frame_analysis) } else { Vec::new() };
+    let mut place = vec![0; scene.blocks.len()];
+    placed.placed.iter().enumerate().for_each(|(number, block)| place[block.0] = number);
+    let mut forces = acting_forces(scene, placed, frame_analysis, |contact| parts(contact, options.style));
+    let is_last = |kind: ForceKind| kind.robot().is_some() || kind.is_failure();
+    forces.sort_by_key(|acting| if is_last(acting.kind) { usize::MAX } else { place[acting.on.0] });
+    let maker = ArrowMaker { options, edge, metres_per_newton: edge / newtons_per_unit, place, largest };
+    forces.into_iter().for_each(|acting| maker.add(&mut marks, acting));
     marks
 }
 
-/// A force of an interface on the first of its two bodies.
-struct InterfaceForce {
-    /// A function that returns the kind of the arrow. Its argument is the body that exerts the force.
-    pub kind: fn(BodyId) -> ArrowKind,
-    /// The force, N.
-    pub force: Vector,
-    /// The point where it acts, metres.
-    pub at: Point,
-}
-
-/// Returns the forces of an interface on the first of its two bodies. `style` selects one resultant, or the normal
-/// force and the friction force.
-fn parts(contact: &Contact, style: ForceStyle) -> Vec<InterfaceForce> {
-    let at = contact.resultant.at;
-    let part = |kind, force| InterfaceForce { kind, force, at };
+/// Returns the forces of an interface on the blocks. `style` selects one resultant, or the normal force and the
+/// friction force.
+fn parts(contact: &Contact, style: ForceStyle) -> Vec<ActingForce> {
     match style {
-        ForceStyle::Resultant => {
-            let on_first = contact.resultant.on == contact.interface.bodies[0];
-            let force = contact.resultant.force;
-            vec![part(ArrowKind::Contact, if on_first { force } else { -force })]
-        }
-        ForceStyle::Components => {
-            let normal = contact.interface.normal;
-            let pressed: f64 = contact.normal_forces.iter().sum();
-            vec![
-                part(ArrowKind::Normal, normal * pressed),
-                part(ArrowKind::Friction, quarter_turn(normal) * contact.friction_force),
-            ]
-        }
+        ForceStyle::Resultant => contact.acting(),
+        ForceStyle::Components => contact.acting_parts(),
     }
 }
 
@@ -285,37 +193,55 @@ const FULL_WIDTH_LENGTH: f64 = 0.35;
 /// heads.
 const MIN_WIDTH_SHARE: f64 = 0.65;
 
+/// Length, in unit lengths, of the arrow of a missing force that is as large as the largest force on its block, at the
+/// scale of the thesis.
+const SOURCE_FAILURE_SCALE: f64 = 0.4;
+
 /// Creates the arrows of one frame.
 struct ArrowMaker<'a> {
-    pub scene: &'a Scene,
     pub options: &'a Options,
     /// The unit length, metres.
     pub edge: f64,
     /// The length of the arrow of a force of 1 N, metres.
     pub metres_per_newton: f64,
+    /// The place of each block in the order of placing, from 0.
+    pub place: Vec<usize>,
+    /// With [`Normalisation::Source`], the force in N that sets the scale of missing forces on each block; otherwise
+    /// empty.
+    pub largest: Vec<f64>,
 }
 
 impl ArrowMaker<'_> {
-    /// Adds the arrow of a force on the body `on`, unless the force is so small that it may be an error of the solver.
-    /// `force` is in newtons. `look` is the colour of the arrow, and the width of its shaft in unit lengths.
-    fn straight(&self, marks: &mut Marks, kind: ArrowKind, on: BodyId, at: Point, force: Vector, look: (Colour, f64)) {
-        // Loads are part of the scene. Even a very small load is not an error of the solver.
-        let least = match kind {
-            ArrowKind::Load => 0.0,
-            _ => FORCE_TOL * marks.newtons_per_unit,
+    /// Adds the arrows of a force and its torque. Arrows of missing forces begin at the points where the forces would
+    /// act.
+    fn add(&self, marks: &mut Marks, acting: ActingForce) {
+        let theme = &self.options.theme;
+        let own = (theme.arrow(self.place[acting.on.0] + 1), theme.widths.force);
+        let look = match acting.kind {
+            ForceKind::Load => (theme.load, theme.widths.robot),
+            ForceKind::Robot(robot) => (theme.robot(robot.0), theme.widths.robot),
+            kind if kind.is_failure() => (self.options.failure(), theme.widths.failure),
+            _ => own,
         };
+        let scale = match self.largest.get(acting.on.0) {
+            Some(largest) if acting.kind.is_failure() && *largest > 0.0 => SOURCE_FAILURE_SCALE * self.edge / largest,
+            _ => self.metres_per_newton,
+        };
+        self.straight(marks, &acting, scale, look);
+        self.torque(marks, &acting, if acting.kind == ForceKind::Load { own } else { look });
+    }
+
+    /// Adds the arrow of a force, unless the force is so small that it may be an error of the solver. `scale` is the
+    /// length of the arrow of a force of 1 N, metres. `look` is the colour of the arrow, and the width of its shaft in
+    /// unit lengths.
+    fn straight(&self, marks: &mut Marks, acting: &ActingForce, scale: f64, look: (Colour, f64)) {
+        let ActingForce { on, kind, at, force, .. } = *acting;
+        // Loads are part of the scene. Even a very small load is not an error of the solver.
+        let least = if kind == ForceKind::Load { 0.0 } else { FORCE_TOL * marks.newtons_per_unit };
         if force.norm() > least {
-            let vector = force * self.metres_per_newton;
-            marks.arrows.push(ForceArrow {
-                on,
-                at,
-                vector,
-                force,
-                colour: look.0,
-                width: self.width(look.1, vector),
-                head: self.head(),
-                kind,
-            });
+            let (on, vector) = (BodyId::Block(on), force * scale);
+            let (width, head) = (self.width(look.1, vector), self.head());
+            marks.arrows.push(ForceArrow { on, at, vector, force, colour: look.0, width, head, kind });
         }
     }
 
@@ -338,130 +264,35 @@ impl ArrowMaker<'_> {
         full * share * self.edge
     }
 
-    /// Adds the arrow of a torque (N·m) on the body `on`, unless the torque is so small that it may be an error of the
-    /// solver. In the style of the thesis ([`Options::printed`]), the torque of a robot, or a missing torque, is drawn
-    /// as two opposite vertical arrows, half a unit length to the left and to the right of the point `at`.
-    fn torque(&self, marks: &mut Marks, kind: TurnKind, on: BodyId, at: Point, torque: f64, look: (Colour, f64)) {
+    /// Adds the arrow of a torque, unless the torque is so small that it may be an error of the solver. In the style of
+    /// the thesis ([`Options::printed`]), the torque of a robot, or a missing torque, is drawn as two opposite vertical
+    /// arrows, half a unit length to the left and to the right of its point.
+    fn torque(&self, marks: &mut Marks, acting: &ActingForce, look: (Colour, f64)) {
+        let ActingForce { on, kind, at, torque, .. } = *acting;
         if torque.abs() <= FORCE_TOL * marks.newtons_per_unit * self.edge {
             return;
         }
-        let source = self.options.printed();
-        let half = match kind {
-            TurnKind::Robot(robot) => Some(ArrowKind::RobotTorque(robot)),
-            TurnKind::Missing(robot) => Some(ArrowKind::MissingTorque(robot)),
-            TurnKind::Load => None,
+        let (turn, half) = match kind {
+            ForceKind::Robot(robot) => (TurnKind::Robot(robot), Some(ForceKind::RobotTorque(robot))),
+            ForceKind::MissingTorque(robot) => (TurnKind::Missing(robot), Some(kind)),
+            _ => (TurnKind::Load, None),
         };
-        if let (true, Some(kind)) = (source, half) {
+        if let Some(kind) = half.filter(|_| self.options.printed()) {
             for side in [1.0, -1.0] {
                 let force = Vector::new(0.0, side * torque / self.edge);
-                self.straight(marks, kind, on, at + Vector::new(side * self.edge / 2.0, 0.0), force, look);
+                let at = at + Vector::new(side * self.edge / 2.0, 0.0);
+                self.straight(marks, &ActingForce { kind, at, force, ..*acting }, self.metres_per_newton, look);
             }
         } else {
-            marks.turns.push(TurnArrow { on, at, torque, colour: look.0, width: look.1 * self.edge, kind });
-        }
-    }
-
-    /// Adds the arrows of weights, loads and forces of interfaces to `marks`, block by block in placing order.
-    fn blocks(&self, frame: &Frame, frame_analysis: &FrameAnalysis, marks: &mut Marks) {
-        let (scene, theme) = (self.scene, &self.options.theme);
-        let touching = self.contacts_of_blocks(frame_analysis);
-        let applied = scene.applied_forces();
-        for (place, id) in frame.placed.iter().enumerate() {
-            let on = BodyId::Block(*id);
-            let look = (theme.arrow(place + 1), theme.widths.force);
-            let load_look = (theme.load, theme.widths.robot);
-            for applied in &applied[id.0] {
-                let (kind, look) = match applied.cause {
-                    ForceCause::Weight => (ArrowKind::Weight, look),
-                    ForceCause::Load(_) => (ArrowKind::Load, load_look),
-                };
-                self.straight(marks, kind, on, applied.at, applied.force, look);
-                self.torque(marks, TurnKind::Load, on, applied.at, applied.torque, look);
-            }
-            for contact in &touching[id.0] {
-                let [first, second] = contact.interface.bodies;
-                let (from, sign) = if first == on { (second, 1.0) } else { (first, -1.0) };
-                for part in parts(contact, self.options.style) {
-                    let force = part.force * sign;
-                    self.straight(marks, (part.kind)(from), on, part.at, force, look);
-                }
-            }
-        }
-    }
-
-    /// Returns the contacts of each block, indexed by block.
-    fn contacts_of_blocks<'c>(&self, frame_analysis: &'c FrameAnalysis) -> Vec<Vec<&'c Contact>> {
-        let mut touching: Vec<Vec<&Contact>> = vec![Vec::new(); self.scene.blocks.len()];
-        for contact in &frame_analysis.contacts {
-            for body in contact.interface.bodies {
-                if let BodyId::Block(block) = body {
-                    touching[block.0].push(contact);
-                }
-            }
-        }
-        touching
-    }
-
-    /// Adds the arrows of the forces and torques of robots to `marks`.
-    fn robots(&self, frame_analysis: &FrameAnalysis, marks: &mut Marks) {
-        let theme = &self.options.theme;
-        for robot in &frame_analysis.robots {
-            let on = BodyId::Block(robot.block);
-            let look = (theme.robot(robot.robot.0), theme.widths.robot);
-            self.straight(marks, ArrowKind::Robot(robot.robot), on, robot.at, robot.force, look);
-            self.torque(marks, TurnKind::Robot(robot.robot), on, robot.at, robot.torque, look);
+            let (on, width) = (BodyId::Block(on), look.1 * self.edge);
+            marks.turns.push(TurnArrow { on, at, torque, colour: look.0, width, kind: turn });
         }
     }
 }
 
-/// Length, in unit lengths, of the arrow of a missing force that is as large as the largest force on its block, at the
-/// scale of the thesis.
-const SOURCE_FAILURE_SCALE: f64 = 0.4;
-
-impl ArrowMaker<'_> {
-    /// Adds the arrows of missing forces and torques to `marks`. Every arrow begins at the point where its force would
-    /// act. With [`Normalisation::Source`], each block has its own scale of missing forces.
-    fn failures(&self, frame_analysis: &FrameAnalysis, marks: &mut Marks) {
-        let (colour, full) = (self.options.failure(), self.options.theme.widths.failure);
-        let is_source = self.options.normalisation == Normalisation::Source;
-        let largest = if is_source { largest_forces_on_blocks(self.scene, frame_analysis) } else { Vec::new() };
-        for failure in &frame_analysis.failures {
-            let at = failure.at();
-            if let Failure::RobotTorque { robot, block, torque, .. } = *failure {
-                let look = (colour, full);
-                self.torque(marks, TurnKind::Missing(robot), BodyId::Block(block), at, torque, look);
-            }
-            for (kind, on, force) in missing_forces(failure) {
-                let BodyId::Block(block) = on else { continue };
-                if force.norm() <= FORCE_TOL * marks.newtons_per_unit {
-                    continue;
-                }
-                let vector = match largest.get(block.0) {
-                    Some(largest) if *largest > 0.0 => force * (SOURCE_FAILURE_SCALE * self.edge / largest),
-                    _ => force * self.metres_per_newton,
-                };
-                let (width, head) = (self.width(full, vector), self.head());
-                marks.arrows.push(ForceArrow { on, at, vector, force, colour, width, head, kind });
-            }
-        }
-    }
-}
-
-/// Returns the missing forces of a failure: for each, the kind of the arrow, the body on which the force would act, and
-/// the force in N. The list is empty for a missing torque.
-fn missing_forces(failure: &Failure) -> Vec<(ArrowKind, BodyId, Vector)> {
-    match *failure {
-        Failure::Tension { bodies: [a, b], force, .. } => {
-            vec![(ArrowKind::MissingPull(b), a, force), (ArrowKind::MissingPull(a), b, -force)]
-        }
-        Failure::Friction { bodies: [a, b], force, .. } => {
-            vec![(ArrowKind::MissingFriction(b), a, force), (ArrowKind::MissingFriction(a), b, -force)]
-        }
-        Failure::RobotForce { robot, block, force, .. } => {
-            vec![(ArrowKind::MissingRobotForce(robot), BodyId::Block(block), force)]
-        }
-        Failure::RobotTorque { .. } => Vec::new(),
-    }
+/// Returns the largest of the normal forces and the friction force of an interface, N.
+fn largest_unknown(contact: &Contact) -> f64 {
+    contact.normal_forces.into_iter().fold(contact.friction_force.abs(), f64::max)
 }
 
 /// Returns, for each block, the largest of these values in N: its weight, the normal forces and the friction forces on
@@ -471,19 +302,8 @@ fn largest_forces_on_blocks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Ve
     let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
     let mut note = |block: BlockId, amount: f64| most[block.0] = most[block.0].max(amount);
     for contact in &frame_analysis.contacts {
-        for body in contact.interface.bodies {
-            if let BodyId::Block(block) = body {
-                for normal in contact.normal_forces {
-                    note(block, normal);
-                }
-                note(block, contact.friction_force.abs());
-            }
-        }
+        contact.acting().iter().for_each(|acting| note(acting.on, largest_unknown(contact)));
     }
-    for robot in &frame_analysis.robots {
-        for component in [robot.force.x, robot.force.y] {
-            note(robot.block, component.abs());
-        }
-    }
+    frame_analysis.robots.iter().for_each(|robot| note(robot.block, robot.force.amax()));
     most
 }

@@ -1,7 +1,8 @@
 //! [`Bearing`]: the normal force of an interface, its eccentricity (how near the interface is to opening), and the used
 //! fraction of its friction; and the robots that reach their limits.
 
-use crate::mechanics::analysis::{Contact, FrameAnalysis, RobotForce, Verdict};
+use crate::geometry::Point;
+use crate::mechanics::analysis::{ActingForce, Contact, FrameAnalysis, RobotForce, Verdict};
 use crate::mechanics::scene::{BodyId, RobotId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::products::wording::number::FULL_UTILISATION;
@@ -27,10 +28,9 @@ pub(crate) struct Bearing {
 /// Returns the normal force, the eccentricity and the used friction of each contact, in the order of the contacts. The
 /// entry is `None` for a contact whose normal force is 0 or [numerical noise](noise).
 pub(crate) fn bearings(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Option<Bearing>> {
-    let pressed = |c: &Contact| c.normal_forces.iter().sum::<f64>();
-    let largest = frame_analysis.contacts.iter().map(pressed).fold(0.0, f64::max);
+    let largest = frame_analysis.contacts.iter().map(Contact::pressed).fold(0.0, f64::max);
     let bearing = |contact: &Contact| {
-        let pressed = pressed(contact);
+        let pressed = contact.pressed();
         let [one, other] = contact.normal_forces;
         let point = contact.interface.kind == ContactKind::Corner || scene.kernel >= 1.0;
         let weights = contact.interface.bodies.iter().map(|body| match body {
@@ -57,6 +57,19 @@ pub(crate) fn noise(largest: f64, weight: f64) -> f64 {
     } else {
         0.0
     }
+}
+
+/// Returns the forces of joints and robots on the blocks, without [numerical noise](noise). `at` returns the point where
+/// the force of a joint acts.
+pub(crate) fn pressing(scene: &Scene, found: &FrameAnalysis, at: impl Fn(&Contact) -> Point) -> Vec<ActingForce> {
+    let mut forces = Vec::new();
+    for (contact, _) in found.contacts.iter().zip(bearings(scene, found)).filter(|(_, bearing)| bearing.is_some()) {
+        forces.extend(contact.acting().into_iter().map(|acting| ActingForce { at: at(contact), ..acting }));
+    }
+    let noise = |robot: &RobotForce| noise(f64::INFINITY, scene.blocks[robot.block.0].weight);
+    let robots = found.robots.iter().filter(|robot| robot.force.norm() > noise(robot));
+    forces.extend(robots.map(RobotForce::acting));
+    forces
 }
 
 /// True if at least one limit of a robot, for a force or a torque, is finite and larger than 0.

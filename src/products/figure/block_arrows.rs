@@ -4,7 +4,7 @@
 
 use std::rc::Rc;
 
-use super::arrow::{self, ArrowKind, ForceArrow, round_above};
+use super::arrow::{self, ForceArrow, round_above};
 use super::canvas::Canvas;
 use super::design::{Key, Layer, Mark, unit};
 use super::fill::Fills;
@@ -13,6 +13,7 @@ use super::panel::{About, Figure};
 use super::parallel_arrows::separate_parallel_arrows;
 use super::placing::Label;
 use super::{description, joint_forces, load, stage};
+use crate::mechanics::analysis::ForceKind;
 use crate::mechanics::scene::BodyId;
 use crate::pictures::drawing::{self, Colour, Face, Outline, PagePoint, Path, Stroke, text};
 use crate::products::wording::number::{quantity, round_below_in};
@@ -107,9 +108,8 @@ fn arrows(canvas: &mut Canvas<'_>, largest: f64) {
     canvas.scale = stretch * pixels / largest;
     let mut marks = arrow::marks(canvas.analysis, canvas.number, options, largest / stretch);
     marks.arrows.retain(|arrow| match arrow.kind {
-        ArrowKind::Weight | ArrowKind::Contact(_) | ArrowKind::Normal(_) | ArrowKind::Friction(_) => true,
-        ArrowKind::Load | ArrowKind::RobotTorque(_) | ArrowKind::MissingTorque(_) => false,
-        _ => printed,
+        ForceKind::Load | ForceKind::RobotTorque(_) | ForceKind::MissingTorque(_) => false,
+        kind => printed || kind == ForceKind::Weight || kind.is_contact(),
     });
     if !printed {
         let least = canvas.camera.metres(canvas.mm(SHAFT));
@@ -132,16 +132,16 @@ fn arrows(canvas: &mut Canvas<'_>, largest: f64) {
         let casing = canvas.mm(0.13);
         let path = Path::filled(outline(canvas, from, reach, width), arrow.colour);
         let mut shapes = vec![path.cased(theme.casing_on(on, arrow.colour), casing)];
-        if arrow.kind == ArrowKind::Weight && !printed && pixels > canvas.mm(READABLE_UNIT) {
+        if arrow.kind == ForceKind::Weight && !printed && pixels > canvas.mm(READABLE_UNIT) {
             shapes.push(circle(canvas, from, width, arrow.colour));
         }
         let layer = match arrow.kind {
-            ArrowKind::Robot(_) => Layer::Symbol,
+            ForceKind::Robot(_) => Layer::Symbol,
             kind if kind.is_failure() => Layer::Missing,
             _ => Layer::Force,
         };
         let is_tick = length < 0.999 * canvas.mm(TICK) && !printed;
-        let key = if arrow.kind == ArrowKind::Weight && !printed { &weights } else { &forces };
+        let key = if arrow.kind == ForceKind::Weight && !printed { &weights } else { &forces };
         let title = description::arrow(scene, unit, arrow);
         let mark = Mark::new(layer, "force", shapes).titled(title).keyed(if is_tick { &ticks } else { key });
         let few = placed.len() <= FEW_BLOCKS;
@@ -156,7 +156,7 @@ fn arrows(canvas: &mut Canvas<'_>, largest: f64) {
 /// Asks for the amount of the largest force of a contact, or of all forces.
 fn amounts(canvas: &mut Canvas<'_>, arrows: &[ForceArrow], all: bool) {
     let (theme, units) = (canvas.theme(), canvas.scene().units.force());
-    let is_contact = |arrow: &&ForceArrow| arrow.kind.partner().is_some() && !arrow.kind.is_failure();
+    let is_contact = |arrow: &&ForceArrow| arrow.kind.is_contact();
     let largest = arrows.iter().find(is_contact);
     let others = arrows.iter().filter(|arrow| all && largest.is_none_or(|most| !core::ptr::eq(most, *arrow)));
     for (arrow, rank) in largest.into_iter().map(|arrow| (arrow, 3)).chain(others.map(|arrow| (arrow, 4))) {

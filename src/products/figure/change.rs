@@ -77,8 +77,7 @@ pub(crate) fn bodies(scene: &Scene, contact: &Contact) -> [BodyId; 2] {
 
 /// Returns the force of a contact on the first body of [`bodies`], N.
 fn force(scene: &Scene, contact: &Contact) -> Vector {
-    let resultant = &contact.resultant;
-    if resultant.on == bodies(scene, contact)[0] { resultant.force } else { -resultant.force }
+    contact.force_on(bodies(scene, contact)[0])
 }
 
 fn is_same_place(a: &Contact, b: &Contact) -> bool {

@@ -127,7 +127,7 @@ fn outlines(canvas: &mut Canvas<'_>) {
 /// Draws the previous force of a joint in a faint colour.
 fn previous(canvas: &mut Canvas<'_>, change: &ForceChange<'_>) {
     let then = change.contacts[0];
-    let newtons = then.resultant.force.norm();
+    let newtons = then.amount();
     if newtons * canvas.scale < canvas.mm(0.1) {
         return;
     }

@@ -1,45 +1,53 @@
 //! Describes arrows and motions in words, with numbers and units, for tooltips and screen readers; [`caption`] describes a
 //! figure.
 
-use super::arrow::{ArrowKind, ForceArrow};
-use crate::mechanics::analysis::{Analysis, Motion, Verdict};
+use super::arrow::ForceArrow;
+use crate::mechanics::analysis::{Analysis, ForceKind, Motion, Verdict};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::products::wording::failure::named;
 use crate::products::wording::number::{force, letter, quantity};
 use crate::products::wording::verdict::reasons;
 
+/// Returns the words for a kind of force, such as `Missing pull`.
+pub(crate) fn word(kind: ForceKind) -> &'static str {
+    match kind {
+        ForceKind::Weight => "Weight",
+        ForceKind::Load => "Load",
+        ForceKind::Contact(_) | ForceKind::Robot(_) => "Force",
+        ForceKind::Normal(_) => "Normal force",
+        ForceKind::Friction(_) => "Friction force",
+        ForceKind::RobotTorque(_) => "Torque",
+        ForceKind::MissingPull(_) => "Missing pull",
+        ForceKind::MissingFriction(_) => "Missing friction",
+        ForceKind::MissingRobotForce(_) => "Missing force",
+        ForceKind::MissingTorque(_) => "Missing torque",
+    }
+}
+
+/// Names the body or the robot that exerts a force: `block a`, `the ground`, `robot r`. A weight and a load have no
+/// name.
+pub(crate) fn exerter(scene: &Scene, kind: ForceKind) -> Option<String> {
+    let robot = || Some(format!("robot {}", scene.robots[kind.robot()?.0].id));
+    kind.partner().map(|body| named(scene, body)).or_else(robot)
+}
+
 /// Describes the force that an arrow shows, such as `Weight of block a: 6 N at 270°`.
 /// `unit` is the unit length, metres.
 pub(crate) fn arrow(scene: &Scene, unit: f64, arrow: &ForceArrow) -> String {
-    let named = |id: BodyId| named(scene, id);
-    let robot = |id: crate::mechanics::scene::RobotId| format!("robot {}", scene.robots[id.0].id);
-    let (on, amount) = (named(arrow.on), force(arrow.force, scene.units));
-    let torque = quantity(arrow.force.norm() * unit, scene.units.torque());
-    match arrow.kind {
-        ArrowKind::Weight => format!("Weight of {on}: {amount}"),
-        ArrowKind::Load => format!("Load on {on}: {amount}"),
-        ArrowKind::Contact(from) => format!("Force on {on} from {}: {amount}", named(from)),
-        ArrowKind::Normal(from) => {
-            format!("Normal force on {on} from {}: {amount}", named(from))
+    let amount = match arrow.kind {
+        ForceKind::RobotTorque(_) | ForceKind::MissingTorque(_) => {
+            quantity(arrow.force.norm() * unit, scene.units.torque())
         }
-        ArrowKind::Friction(from) => {
-            format!("Friction force on {on} from {}: {amount}", named(from))
-        }
-        ArrowKind::Robot(id) => format!("Force on {on} from {}: {amount}", robot(id)),
-        ArrowKind::RobotTorque(id) => format!("Torque on {on} from {}: {torque}", robot(id)),
-        ArrowKind::MissingPull(from) => {
-            format!("Missing pull on {on} from {}: {amount}", named(from))
-        }
-        ArrowKind::MissingFriction(from) => {
-            format!("Missing friction on {on} from {}: {amount}", named(from))
-        }
-        ArrowKind::MissingRobotForce(id) => {
-            format!("Missing force on {on} from {}: {amount}", robot(id))
-        }
-        ArrowKind::MissingTorque(id) => {
-            format!("Missing torque on {on} from {}: {torque}", robot(id))
-        }
-    }
+        _ => force(arrow.force, scene.units),
+    };
+    format!("{}: {amount}", described(scene, arrow.kind, arrow.on))
+}
+
+/// Names a force, such as `Force on block a from block b`.
+pub(crate) fn described(scene: &Scene, kind: ForceKind, on: BodyId) -> String {
+    let preposition = if kind == ForceKind::Weight { "of" } else { "on" };
+    let from = exerter(scene, kind).map_or(String::new(), |name| format!(" from {name}"));
+    format!("{} {preposition} {}{from}", word(kind), named(scene, on))
 }
 
 /// Describes in which direction a block begins to move in a mechanism, and how fast it turns.

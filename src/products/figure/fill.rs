@@ -7,9 +7,9 @@
 //! a force limit, every block shows its amplitude as a fraction of the largest amplitude.
 
 use super::option::Fill;
-use crate::mechanics::analysis::{Analysis, FrameAnalysis};
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis};
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
+use crate::mechanics::scene::{BlockId, Frame, Scene};
 use crate::pictures::drawing::{Colour, PLASMA, Theme};
 use crate::products::wording::number::quantity;
 
@@ -192,20 +192,11 @@ fn robot_limit_used(scene: &Scene, frame_analysis: &FrameAnalysis, block: BlockI
 }
 
 /// Returns, for each placed block in placing order, the largest value of `amount` on the interfaces of the block.
-fn largest(
-    scene: &Scene,
-    frame: &Frame,
-    frame_analysis: &FrameAnalysis,
-    amount: impl Fn(&crate::mechanics::analysis::Contact) -> f64,
-) -> Vec<f64> {
+fn largest(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis, amount: impl Fn(&Contact) -> f64) -> Vec<f64> {
     let mut most = vec![0.0_f64; scene.blocks.len()];
     for contact in &frame_analysis.contacts {
         let amount = amount(contact);
-        for body in contact.interface.bodies {
-            if let BodyId::Block(block) = body {
-                most[block.0] = most[block.0].max(amount);
-            }
-        }
+        contact.acting().iter().for_each(|acting| most[acting.on.0] = most[acting.on.0].max(amount));
     }
     frame.placed.iter().map(|block| most[block.0]).collect()
 }
@@ -213,7 +204,7 @@ fn largest(
 /// Returns, for each placed block in placing order, the larger of its weight and the largest normal force on its
 /// interfaces, N.
 fn amplitudes(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
-    let normals = largest(scene, frame, frame_analysis, |c| c.normal_forces.iter().sum());
+    let normals = largest(scene, frame, frame_analysis, Contact::pressed);
     let weights = frame.placed.iter().map(|b| scene.blocks[b.0].weight);
     normals.into_iter().zip(weights).map(|(n, w)| n.max(w)).collect()
 }
@@ -223,8 +214,7 @@ fn amplitudes(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> V
 fn stresses(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, frame_analysis, |contact| {
         let area = contact.interface.length() * scene.thickness;
-        let normal: f64 = contact.normal_forces.iter().sum();
-        if area > 0.0 { normal / area } else { 0.0 }
+        if area > 0.0 { contact.pressed() / area } else { 0.0 }
     })
 }
 
@@ -232,7 +222,6 @@ fn stresses(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec
 /// without normal forces.
 fn friction(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, frame_analysis, |contact| {
-        let pressed: f64 = contact.normal_forces.iter().sum();
-        if pressed > 0.0 { contact.friction_used.clamp(0.0, 1.0) } else { 0.0 }
+        if contact.pressed() > 0.0 { contact.friction_used.clamp(0.0, 1.0) } else { 0.0 }
     })
 }

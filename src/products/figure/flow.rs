@@ -12,17 +12,17 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use path::ribbon;
-use strand::{Origin, Strand, StrandKind, strands};
+use strand::{Strand, StrandKind, strands};
 
 use super::bearing::bearings;
 use super::canvas::Canvas;
+use super::description::exerter;
 use super::design::{Key, Layer, Look, Mark, unit};
 use super::panel::{About, Figure, View};
 use super::{joint_forces, load, stage};
-use crate::mechanics::analysis::{FrameAnalysis, Verdict};
-use crate::mechanics::scene::BodyId;
+use crate::mechanics::analysis::{ForceKind, FrameAnalysis, Verdict};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Stroke, Theme};
-use crate::products::wording::failure::{named, pair};
+use crate::products::wording::failure::pair;
 use crate::products::wording::number::{quantity, round_below_in};
 
 /// The width of the band of the largest force in unit lengths, with its least and largest allowed width in mm.
@@ -77,9 +77,7 @@ impl Figure for ForceFlow {
 
 /// Returns the magnitude of the largest force of a joint or a robot in any frame, N.
 fn largest(frames: &[Arc<FrameAnalysis>]) -> f64 {
-    let contacts = frames.iter().flat_map(|frame| &frame.contacts).map(|contact| contact.resultant.force.norm());
-    let robots = frames.iter().flat_map(|frame| &frame.robots).map(|robot| robot.force.norm());
-    contacts.chain(robots).fold(0.0, f64::max)
+    frames.iter().map(|frame| frame.largest_force()).fold(0.0, f64::max)
 }
 
 /// Returns the colour of the bands of this kind in a frame with this verdict. Forces of a frame that does not stand are
@@ -191,17 +189,11 @@ impl Bands {
 
 /// Describes a band: `In block a: 5 N from a load, 6 N to block b`.
 fn title(canvas: &Canvas<'_>, strand: &Strand) -> String {
-    let (scene, found) = (canvas.scene(), canvas.found());
-    let on = BodyId::Block(strand.on);
-    let name = |origin| match origin {
-        Origin::Contact(number) => {
-            let [a, b] = found.contacts[number].interface.bodies;
-            named(scene, if a == on { b } else { a })
-        }
-        Origin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
-        Origin::Load => "a load".to_owned(),
-        Origin::Weight => "its weight".to_owned(),
-        Origin::Missing(_) => "a missing force".to_owned(),
+    let scene = canvas.scene();
+    let name = |kind: ForceKind| match kind {
+        ForceKind::Load => "a load".to_owned(),
+        kind if kind.is_failure() => "a missing force".to_owned(),
+        kind => exerter(scene, kind).unwrap_or("its weight".to_owned()),
     };
     let [from, to] = strand.amounts.map(|newtons| quantity(newtons, scene.units.force()));
     let block = &scene.blocks[strand.on.0].id;
@@ -224,7 +216,7 @@ fn dots(canvas: &mut Canvas<'_>) {
             continue;
         }
         let pair = pair(scene, contact.interface.bodies);
-        let amount = quantity(contact.resultant.force.norm(), scene.units.force());
+        let amount = quantity(contact.amount(), scene.units.force());
         let shapes = dot(canvas.place(contact.resultant.at), radius);
         let mark = Mark::new(Layer::Force, "resultant", shapes).titled(format!("Between {pair}: {amount}"));
         canvas.put(mark.keyed(&key).avoided(canvas.mm(0.2)));
@@ -236,12 +228,12 @@ fn label(canvas: &mut Canvas<'_>) {
     let contacts = canvas.found().contacts.iter();
     let largest = contacts.reduce(|most, contact| {
         // Forces that differ only by rounding errors have no order.
-        let (force, least) = (contact.resultant.force.norm(), most.resultant.force.norm());
+        let (force, least) = (contact.amount(), most.amount());
         if force > (1.0 + 1e-6) * least { contact } else { most }
     });
-    if let Some(contact) = largest.filter(|contact| contact.resultant.force.norm() > 0.0) {
+    if let Some(contact) = largest.filter(|contact| contact.amount() > 0.0) {
         let theme = canvas.theme();
-        let words = quantity(contact.resultant.force.norm(), canvas.scene().units.force());
+        let words = quantity(contact.amount(), canvas.scene().units.force());
         let ink = theme.letters_on(theme.page, Some(colour(theme, canvas.found().verdict, StrandKind::Carried)));
         let at = canvas.place(contact.resultant.at);
         stage::amount(canvas, words, ink, (vec![at], 3), None);

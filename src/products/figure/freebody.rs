@@ -131,7 +131,7 @@ fn shown_block(analysis: &Analysis, options: &Options) -> BlockId {
         return block;
     }
     let contacts = analysis.frames.last().map_or(&[][..], |frame| &frame.contacts);
-    let largest = contacts.iter().max_by(|a, b| a.resultant.force.norm().total_cmp(&b.resultant.force.norm()));
+    let largest = contacts.iter().max_by(|a, b| a.amount().total_cmp(&b.amount()));
     let bodies = largest.map(|contact| contact.interface.bodies);
     let block = bodies.into_iter().flatten().find_map(|body| match body {
         BodyId::Block(id) => Some(id),
@@ -340,7 +340,7 @@ impl<'a> Body<'a> {
         for force in &self.forces {
             let limit = largest * least_length(canvas, force) / longest;
             let is_small = |amount: f64| amount > NOISE * largest && amount < limit;
-            let what = if force.is_missing() { "missing " } else { "" };
+            let what = if force.kind.is_failure() { "missing " } else { "" };
             if is_small(force.force.norm()) {
                 small.push(format!("{what}forces under {}", quantity(limit, units.force())));
             }
@@ -348,7 +348,7 @@ impl<'a> Body<'a> {
         for force in self.forces.iter().filter(|force| force.torque != 0.0) {
             let limit = largest * least_length(canvas, force) / longest * edge;
             if force.torque.abs() < limit {
-                let what = if force.is_missing() { "missing " } else { "" };
+                let what = if force.kind.is_failure() { "missing " } else { "" };
                 small.push(format!("{what}torques under {}", quantity(limit, units.torque())));
             }
         }

@@ -14,10 +14,10 @@
 //! then schematic: a straight line between the two joints, or a straight line from every joint and load to a common
 //! point. The line of thrust therefore has no gaps.
 
-use super::bearing::{self, bearings};
+use super::bearing::pressing;
 use crate::geometry::{Point, Polygon, Vector, cross, quarter_turn};
-use crate::mechanics::analysis::{FrameAnalysis, Verdict};
-use crate::mechanics::scene::{AppliedForce, Block, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
+use crate::mechanics::analysis::{ActingForce, ForceKind, FrameAnalysis, Verdict, by_block};
+use crate::mechanics::scene::{AppliedForce, Block, BlockId, Frame, Scene};
 
 /// A line passes through a point if their distance is below this fraction of the block's size. Forces have a relative
 /// accuracy of about 1e-9, so rounding errors are far smaller.
@@ -34,26 +34,14 @@ const MAX_ORDERED_LOADS: usize = 3;
 /// smaller force.
 const SIMILAR_RATIO: f64 = 4.0;
 
-/// The origin of a force.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum ForceOrigin {
-    /// Another body, through the contact with this index.
-    Contact(usize),
-    /// A robot.
-    Robot(RobotId),
-    /// The load with this index in the scene.
-    Load(usize),
-    /// The weight of the block, or the resultant of a joint's force and the loads that the line has met so far.
-    Resultant,
-}
-
 /// A straight segment of the line of thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ThrustSegment {
     /// The block through which the segment runs.
     pub on: BlockId,
-    /// The origin of the force.
-    pub origin: ForceOrigin,
+    /// The kind of the force. The resultant of a joint's force and the loads that the line has met so far counts as
+    /// [`ForceKind::Weight`].
+    pub kind: ForceKind,
     /// The point at which the segment begins, metres.
     pub from: Point,
     /// The point at which the segment ends, metres.
@@ -70,14 +58,15 @@ pub(crate) struct ThrustSegment {
 /// line may leave the blocks.
 pub(crate) fn segments(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<ThrustSegment> {
     let may_leave = frame_analysis.verdict == Verdict::Unstable;
-    let (pressing, loads) = (pressing(scene, frame_analysis), loads(scene));
+    let pressing = by_block(pressing(scene, frame_analysis, |contact| contact.resultant.at), scene.blocks.len());
+    let applied = scene.applied_forces();
     let mut segments = Vec::new();
     for id in &frame.placed {
         let forces = BlockForces {
             id: *id,
             block: &scene.blocks[id.0],
-            pressing: &pressing[id.0],
-            loads: &loads[id.0],
+            pressing: pressing[id.0].iter().map(line_of_action).collect(),
+            loads: loads(&applied[id.0]),
             may_leave,
         };
         match forces.path() {
@@ -91,7 +80,7 @@ pub(crate) fn segments(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnaly
 /// A force with its line of action.
 #[derive(Clone, Copy, Debug)]
 struct LineOfAction {
-    origin: ForceOrigin,
+    kind: ForceKind,
     /// A point on the line, metres.
     at: Point,
     /// The point where the force acts on the block, metres. A torque shifts the line away from this point.
@@ -99,65 +88,22 @@ struct LineOfAction {
     force: Vector,
 }
 
-/// Returns the forces that other bodies and robots exert on each block, with their lines of action. The list is indexed
-/// by block.
-fn pressing(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Vec<LineOfAction>> {
-    let mut lines: Vec<Vec<LineOfAction>> = vec![Vec::new(); scene.blocks.len()];
-    let bearings = bearings(scene, frame_analysis);
-    for (number, contact) in frame_analysis.contacts.iter().enumerate() {
-        if bearings[number].is_none() {
-            continue;
-        }
-        let [first, second] = contact.interface.bodies;
-        let force = contact.resultant.force;
-        let force = if contact.resultant.on == first { force } else { -force };
-        for (body, force) in [(first, force), (second, -force)] {
-            if let BodyId::Block(block) = body {
-                lines[block.0].push(LineOfAction {
-                    origin: ForceOrigin::Contact(number),
-                    at: contact.resultant.at,
-                    entry: contact.resultant.at,
-                    force,
-                });
-            }
-        }
-    }
-    for robot in &frame_analysis.robots {
-        let noise = bearing::noise(f64::INFINITY, scene.blocks[robot.block.0].weight);
-        if robot.force.norm() > noise {
-            lines[robot.block.0].push(LineOfAction {
-                origin: ForceOrigin::Robot(robot.robot),
-                at: shifted_by_torque(robot.at, robot.force, robot.torque),
-                entry: robot.at,
-                force: robot.force,
-            });
-        }
-    }
-    lines
+/// Returns the line of action of a force with its torque.
+fn line_of_action(acting: &ActingForce) -> LineOfAction {
+    let ActingForce { kind, at: entry, force, torque, .. } = *acting;
+    LineOfAction { kind, at: shifted_by_torque(entry, force, torque), entry, force }
 }
 
-/// Returns the weight and the loads of each block with their lines of action, indexed by block. A load that is only a
-/// torque shifts the line of action of the weight.
-fn loads(scene: &Scene) -> Vec<Vec<LineOfAction>> {
-    let of_block = |applied: Vec<AppliedForce>| {
-        let pure_torques = applied.iter().filter(|a| a.force.norm() == 0.0);
-        let pure_torque: f64 = pure_torques.map(|a| a.torque).sum();
-        let forces = applied.iter().filter(|a| a.force.norm() > 0.0);
-        let line = |applied: &AppliedForce| {
-            let (origin, torque) = match applied.cause {
-                ForceCause::Weight => (ForceOrigin::Resultant, pure_torque),
-                ForceCause::Load(number) => (ForceOrigin::Load(number), applied.torque),
-            };
-            LineOfAction {
-                origin,
-                at: shifted_by_torque(applied.at, applied.force, torque),
-                entry: applied.at,
-                force: applied.force,
-            }
-        };
-        forces.map(line).collect()
+/// Returns the lines of action of the weight and the loads of a block. A load that is only a torque shifts the line of
+/// action of the weight.
+fn loads(applied: &[AppliedForce]) -> Vec<LineOfAction> {
+    let (forces, torques): (Vec<ActingForce>, Vec<ActingForce>) =
+        applied.iter().map(AppliedForce::acting).partition(|acting| acting.force.norm() > 0.0);
+    let turned = |acting: ActingForce| match acting.kind {
+        ForceKind::Weight => ActingForce { torque: torques.iter().map(|acting| acting.torque).sum(), ..acting },
+        _ => acting,
     };
-    scene.applied_forces().into_iter().map(of_block).collect()
+    forces.into_iter().map(|acting| line_of_action(&turned(acting))).collect()
 }
 
 /// Returns a point on the line of action of a force at `at` combined with a torque. The combination acts along a line
@@ -174,8 +120,10 @@ fn shifted_by_torque(at: Point, force: Vector, torque: f64) -> Point {
 struct BlockForces<'a> {
     id: BlockId,
     block: &'a Block,
-    pressing: &'a [LineOfAction],
-    loads: &'a [LineOfAction],
+    /// The forces of other bodies and robots.
+    pressing: Vec<LineOfAction>,
+    /// The weight and the loads.
+    loads: Vec<LineOfAction>,
     /// Whether the line may run outside the block, by up to the size of the block.
     may_leave: bool,
 }
@@ -193,7 +141,7 @@ impl BlockForces<'_> {
     /// `None` for any other number of such forces, if the forces do not balance, or if no funicular polygon lies in or
     /// near the block.
     fn path(&self) -> Option<Vec<ThrustSegment>> {
-        let (first, last) = match self.pressing {
+        let (first, last) = match &self.pressing[..] {
             [one] => (one, None),
             [one, other] => (one, Some(other)),
             _ => return None,
@@ -201,7 +149,7 @@ impl BlockForces<'_> {
         if !self.balances() {
             return None;
         }
-        let orders = if self.loads.len() <= MAX_ORDERED_LOADS + 1 { permutations(self.loads) } else { Vec::new() };
+        let orders = if self.loads.len() <= MAX_ORDERED_LOADS + 1 { permutations(&self.loads) } else { Vec::new() };
         let together = self.total_load().map(|sum| vec![sum]);
         orders.into_iter().chain(together).find_map(|loads| self.funicular(first, &loads, last))
     }
@@ -209,7 +157,7 @@ impl BlockForces<'_> {
     /// True if the forces on the block are in equilibrium. In a structure that falls, the forces may be out of balance.
     fn balances(&self) -> bool {
         let (mut sum, mut moment, mut all) = (Vector::zeros(), 0.0, 0.0);
-        for line in self.pressing.iter().chain(self.loads) {
+        for line in self.pressing.iter().chain(&self.loads) {
             sum += line.force;
             moment += cross(line.at - self.block.centroid, line.force);
             all += line.force.norm();
@@ -224,7 +172,7 @@ impl BlockForces<'_> {
         let force: Vector = self.loads.iter().map(|l| l.force).sum();
         let moments = self.loads.iter().map(|l| cross(l.at - centroid, l.force));
         let line = LineOfAction {
-            origin: ForceOrigin::Resultant,
+            kind: ForceKind::Weight,
             at: shifted_by_torque(centroid, force, moments.sum()),
             entry: centroid,
             force,
@@ -243,26 +191,26 @@ impl BlockForces<'_> {
     ) -> Option<Vec<ThrustSegment>> {
         let tolerance = LENGTH_TOL * self.size();
         let sum: f64 = self.pressing.iter().map(|l| l.force.norm()).sum();
-        let (mut at, mut force, mut origin) = (first.at, first.force, first.origin);
+        let (mut at, mut force, mut kind) = (first.at, first.force, first.kind);
         let mut path = Vec::new();
         for (number, load) in loads.iter().enumerate() {
             let vertex = intersection(at, force, load, tolerance)?;
             let ends_here = last.is_none() && number + 1 == loads.len();
-            if ends_here && matches!(load.origin, ForceOrigin::Load(_)) {
+            if ends_here && load.kind == ForceKind::Load {
                 // The block has no second joint, so the line of thrust ends at the point where the last load acts.
-                path.extend(self.segment(load.origin, (load.at, at), load.force));
+                path.extend(self.segment(load.kind, (load.at, at), load.force));
                 continue;
             }
-            path.extend(self.segment(origin, (at, vertex), force));
-            if let ForceOrigin::Load(_) = load.origin {
-                path.extend(self.segment(load.origin, (load.at, vertex), load.force));
+            path.extend(self.segment(kind, (at, vertex), force));
+            if load.kind == ForceKind::Load {
+                path.extend(self.segment(load.kind, (load.at, vertex), load.force));
             }
             at = vertex;
             force += load.force;
             // After the last load, the force in the line is the force of the second joint.
-            origin = match last {
-                Some(last) if number + 1 == loads.len() => last.origin,
-                _ => ForceOrigin::Resultant,
+            kind = match last {
+                Some(last) if number + 1 == loads.len() => last.kind,
+                _ => ForceKind::Weight,
             };
             // A resultant of zero has no line of action.
             if !ends_here && force.norm() <= BALANCE_TOL * sum {
@@ -275,17 +223,17 @@ impl BlockForces<'_> {
             if miss > 10.0 * tolerance {
                 return None;
             }
-            let force = if origin == last.origin { last.force } else { force };
-            path.extend(self.segment(origin, (at, last.at), force));
+            let force = if loads.is_empty() { force } else { last.force };
+            path.extend(self.segment(kind, (at, last.at), force));
         }
         let inside = path.iter().all(|s| !s.leaves || self.may_leave && self.nearby(s.from) && self.nearby(s.to));
         (inside && runs_onward(&path, tolerance)).then_some(path)
     }
 
     /// Creates a segment on a true line of action; `None` if the two points coincide.
-    fn segment(&self, origin: ForceOrigin, (from, to): (Point, Point), force: Vector) -> Option<ThrustSegment> {
+    fn segment(&self, kind: ForceKind, (from, to): (Point, Point), force: Vector) -> Option<ThrustSegment> {
         let leaves = !self.within(from, to);
-        let segment = ThrustSegment { on: self.id, origin, from, to, force, through: true, leaves };
+        let segment = ThrustSegment { on: self.id, kind, from, to, force, through: true, leaves };
         ((to - from).norm() > LENGTH_TOL * self.size()).then_some(segment)
     }
 
@@ -307,11 +255,11 @@ impl BlockForces<'_> {
     /// block besides its weight, the path is the straight line between them, as wide as the larger force. Otherwise a
     /// straight line leads from each force to a common point. The weight is not shown.
     fn schematic(&self) -> Vec<ThrustSegment> {
-        let all = self.pressing.iter().chain(self.loads);
-        let given = all.filter(|l| l.origin != ForceOrigin::Resultant && l.force.norm() > 0.0);
+        let all = self.pressing.iter().chain(&self.loads);
+        let given = all.filter(|l| l.kind != ForceKind::Weight && l.force.norm() > 0.0);
         let given: Vec<&LineOfAction> = given.collect();
         let piece = |line: &LineOfAction, to: Point| {
-            let segment = self.segment(line.origin, (line.entry, to), line.force)?;
+            let segment = self.segment(line.kind, (line.entry, to), line.force)?;
             Some(ThrustSegment { through: false, leaves: segment.leaves && self.may_leave, ..segment })
         };
         if let [one, other] = given[..] {
@@ -339,7 +287,7 @@ impl BlockForces<'_> {
 /// True if no segment of the path points backwards, compared with the straight line from the beginning to the end of
 /// the path. A path that turns back would cover itself. Segments of loads are side branches and are not tested.
 fn runs_onward(path: &[ThrustSegment], tolerance: f64) -> bool {
-    let main = || path.iter().filter(|s| !matches!(s.origin, ForceOrigin::Load(_)));
+    let main = || path.iter().filter(|s| s.kind != ForceKind::Load);
     let (Some(first), Some(last)) = (main().next(), main().next_back()) else {
         return true;
     };

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::arrow::round_above;
 use super::canvas::Canvas;
+use super::description::{described, word};
 use super::design::{ArrowSize, Key, Layer, Look, Mark, along, direction};
 use super::gives::{self, Gives, How};
 use super::option::{Fill, ForceStyle, Normalisation, Options};
@@ -15,7 +16,7 @@ use super::panel::{About, Figure, View};
 use super::placing::Label;
 use super::{load, stage};
 use crate::geometry::{Point, Vector, quarter_turn};
-use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis, Motion};
+use crate::mechanics::analysis::{ActingForce, Contact, Failure, FrameAnalysis, Motion};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::pictures::drawing::difference::lightness;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
@@ -90,8 +91,7 @@ pub(crate) fn about_build() -> About {
 
 /// Returns the largest contact force of some frames, N.
 fn largest(frames: &[Arc<FrameAnalysis>]) -> f64 {
-    let contacts = frames.iter().flat_map(|frame| &frame.contacts);
-    contacts.map(|contact| contact.resultant.force.norm()).fold(0.0, f64::max)
+    frames.iter().map(|frame| frame.largest_at_contacts()).fold(0.0, f64::max)
 }
 
 /// Returns the scale of the forces, pixels of half a mark per newton. With it, the marks of large forces in a block do
@@ -109,16 +109,14 @@ fn scale(view: &View<'_>, look: Look) -> f64 {
     }
     let mut candidates = Vec::new();
     for contact in analysis.frames.iter().flat_map(|frame| &frame.contacts) {
-        let (at, force) = (contact.resultant.at, contact.resultant.force);
-        let norm = force.norm();
+        let (at, norm) = (contact.resultant.at, contact.amount());
         if norm < 0.4 * largest {
             continue;
         }
-        for (body, sign) in contact.interface.bodies.into_iter().zip([1.0, -1.0]) {
-            let BodyId::Block(id) = body else { continue };
-            let polygon = &scene.blocks[id.0].body.polygon;
+        for acting in contact.acting() {
+            let polygon = &scene.blocks[acting.on.0].body.polygon;
             let reach = polygon.bounds().diagonal();
-            let way = force * (sign / norm);
+            let way = acting.force * (1.0 / norm);
             let chord = view.zoom * load::inside_length(polygon.rings(), at + way * (1e-6 * reach), way * reach);
             if chord > look.mm(0.5) {
                 candidates.push(0.45 * chord / norm);
@@ -187,11 +185,8 @@ fn drawn<'a>(canvas: &Canvas<'a>) -> Vec<Drawn<'a>> {
         if newtons <= noise {
             return None;
         }
-        let is_block = |body: &BodyId| matches!(body, BodyId::Block(_));
-        let [first, second] = contact.interface.bodies;
-        let sign = if is_block(&first) { 1.0 } else { -1.0 };
-        let u = (sign * force.x / newtons, -sign * force.y / newtons);
-        let both = is_block(&first) && is_block(&second);
+        let u = (force.x / newtons, -force.y / newtons);
+        let both = matches!(contact.interface.bodies[1], BodyId::Block(_));
         Some(Drawn { contact, newtons, at: canvas.place(contact.resultant.at), u, both })
     };
     let mut all: Vec<Drawn<'a>> = contacts.filter_map(one).collect();
@@ -209,8 +204,7 @@ fn joints(canvas: &mut Canvas<'_>) {
     let mut all = drawn(canvas);
     let newtons_of_tick = look.mm(TICK) / canvas.scale;
     let every = canvas.analysis.frames.iter().flat_map(|frame| &frame.contacts);
-    let every = every.map(|contact| contact.resultant.force.norm());
-    let ticks = every.filter(|n| *n > NOISE * most && *n < 0.999 * newtons_of_tick).count();
+    let ticks = every.map(Contact::amount).filter(|n| *n > NOISE * most && *n < 0.999 * newtons_of_tick).count();
     let (force_key, tick_key) = (force_key(canvas, most), tick_key(canvas, most, newtons_of_tick));
     let casing = look.mm(0.14);
     for one in &all {
@@ -261,7 +255,7 @@ fn key_mark(canvas: &Canvas<'_>, newtons: f64, share: f64, both: bool) -> (Vec<P
 /// Returns the entry with the scale: a mark of a round amount. A joint with the ground only has the half in the block.
 fn force_key(canvas: &Canvas<'_>, most: f64) -> Rc<Key> {
     let bodies = || canvas.analysis.frames.iter().flat_map(|frame| &frame.contacts).map(|c| c.interface.bodies);
-    let on_ground = |bodies: [BodyId; 2]| bodies.iter().any(|body| matches!(body, BodyId::Ground(_)));
+    let on_ground = |bodies: [BodyId; 2]| matches!(bodies[1], BodyId::Ground(_));
     let (ground, blocks) = (bodies().any(on_ground), bodies().any(|bodies| !on_ground(bodies)));
     let units = canvas.scene().units.force();
     let share = if canvas.scale * most < canvas.mm(6.0) { 1.0 } else { 0.75 };
@@ -398,17 +392,11 @@ fn half_arrows(at: PagePoint, u: (f64, f64), normal: (f64, f64), size: ArrowSize
 
 /// Names a missing force and the bodies between which it would act.
 fn named(scene: &Scene, failure: &Failure) -> String {
-    let robot = |robot: crate::mechanics::scene::RobotId| &scene.robots[robot.0].id;
-    match *failure {
-        Failure::Tension { bodies, .. } => format!("Missing pull between {}", pair(scene, bodies)),
-        Failure::Friction { bodies, .. } => format!("Missing friction between {}", pair(scene, bodies)),
-        Failure::RobotForce { robot: id, block, .. } => {
-            format!("Missing force on block {} from robot {}", scene.blocks[block.0].id, robot(id))
-        }
-        Failure::RobotTorque { robot: id, block, .. } => {
-            format!("Missing torque on block {} from robot {}", scene.blocks[block.0].id, robot(id))
-        }
-    }
+    let name = |acting: &ActingForce| match acting.kind.partner() {
+        Some(from) => format!("{} between {}", word(acting.kind), pair(scene, [BodyId::Block(acting.on), from])),
+        None => described(scene, acting.kind, BodyId::Block(acting.on)),
+    };
+    failure.acting().first().map_or(String::new(), name)
 }
 
 /// Draws the hinges and slips of the collapse that the line of the verdict names.

@@ -147,7 +147,7 @@ fn resultants(canvas: &mut Canvas<'_>) {
         let Some(bearing) = bearing else { continue };
         let (outline, ink) = shape(canvas.place(contact.resultant.at), &bearing);
         let pair = pair(scene, contact.interface.bodies);
-        let amount = quantity(contact.resultant.force.norm(), scene.units.force());
+        let amount = quantity(contact.amount(), scene.units.force());
         let place = bearing.eccentricity.map_or(String::new(), |share| {
             format!(", {} of the way from the middle to the end of the safe part", percent(share))
         });

@@ -52,7 +52,8 @@ mod thrust;
 mod utilisation;
 mod verdict;
 
-pub use arrow::{ArrowKind, ForceArrow, Head, Marks, TurnArrow, TurnKind, arrows, marks};
+pub use crate::mechanics::analysis::acting::ForceKind as ArrowKind;
+pub use arrow::{ForceArrow, Head, Marks, TurnArrow, TurnKind, arrows, marks};
 pub use broken::broken;
 pub use cad::dxf;
 #[cfg(feature = "report")]

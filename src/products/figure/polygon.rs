@@ -10,14 +10,15 @@
 use std::rc::Rc;
 
 use super::canvas::Canvas;
+use super::description::described;
 use super::design::{ArrowSize, Key, Layer, Look, Mark, along, direction, unit};
 use super::option::Options;
 use super::panel::{About, Figure, Subject, View};
 use super::placing::Label;
 use super::{load, stage};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::mechanics::analysis::{Analysis, Failure, Verdict};
-use crate::mechanics::scene::{BlockId, BodyId, ForceCause, RobotId};
+use crate::mechanics::analysis::{ActingForce, Analysis, Contact, Failure, ForceKind, Verdict, acting_forces};
+use crate::mechanics::scene::BodyId;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke};
 use crate::products::wording::number::{force, letter, quantity, round_below_in};
 use crate::products::wording::verdict;
@@ -45,40 +46,6 @@ const REACTION_OFFSET: f64 = 0.09;
 const SCALE_ARROW: f64 = 12.0;
 /// At most this many forces of the ground have letters.
 const MAX_LETTERS: usize = 12;
-
-/// What exerts an external force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Cause {
-    Weight,
-    Load,
-    Ground,
-    Robot(RobotId),
-    /// A missing force of the ground.
-    MissingGround,
-    /// A missing force of a robot.
-    MissingRobot(RobotId),
-}
-
-impl Cause {
-    fn is_missing(self) -> bool {
-        matches!(self, Cause::MissingGround | Cause::MissingRobot(_))
-    }
-
-    fn is_action(self) -> bool {
-        matches!(self, Cause::Weight | Cause::Load)
-    }
-}
-
-/// An external force on the structure: a side of the polygon.
-#[derive(Clone, Debug)]
-struct Side {
-    cause: Cause,
-    on: BlockId,
-    /// The point at which it acts, metres.
-    at: Point,
-    /// The force, N.
-    force: Vector,
-}
 
 /// The figure of the force polygon.
 pub(crate) struct ForcePolygon;
@@ -108,7 +75,7 @@ impl Figure for ForcePolygon {
 
     fn scale(&self, view: &View<'_>, look: Look) -> f64 {
         let frames = 0..view.analysis.frames.len();
-        let ground = frames.flat_map(|frame| sides(view.analysis, frame)).filter(|side| !side.cause.is_action());
+        let ground = frames.flat_map(|frame| sides(view.analysis, frame)).filter(|side| !side.kind.is_given());
         let largest = ground.map(|side| side.force.norm()).fold(0.0, f64::max);
         if largest > 0.0 { look.mm(8.0) / largest } else { 0.0 }
     }
@@ -149,50 +116,17 @@ impl Figure for ForcePolygon {
 
 /// Returns the external forces on the structure of a frame, in the order of the polygon: weights and loads block by
 /// block, forces of the ground and of robots, missing forces.
-fn sides(analysis: &Analysis, frame: usize) -> Vec<Side> {
+fn sides(analysis: &Analysis, frame: usize) -> Vec<ActingForce> {
     let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
-    let applied = scene.applied_forces();
-    let placed = scene.frames[frame].placed.iter().flat_map(|id| &applied[id.0]);
-    let actions = placed.map(|applied| {
-        let cause = if applied.cause == ForceCause::Weight { Cause::Weight } else { Cause::Load };
-        Side { cause, on: applied.block, at: applied.at, force: applied.force }
-    });
-    let ground = found.contacts.iter().filter_map(|contact| {
-        let (force, at) = (contact.resultant.force, contact.resultant.at);
-        let side = |on: BlockId, force: Vector| Side { cause: Cause::Ground, on, at, force };
-        match contact.interface.bodies {
-            [BodyId::Block(on), BodyId::Ground(_)] => Some(side(on, force)),
-            [BodyId::Ground(_), BodyId::Block(on)] => Some(side(on, -force)),
-            _ => None,
-        }
-    });
-    let robots = found.robots.iter();
-    let robots =
-        robots.map(|held| Side { cause: Cause::Robot(held.robot), on: held.block, at: held.at, force: held.force });
-    let missing = found.failures.iter().filter_map(|failure| {
-        let side = |cause: Cause, on: BlockId| {
-            let (force, _) = failure.on(BodyId::Block(on))?;
-            Some(Side { cause, on, at: failure.at(), force })
-        };
-        match *failure {
-            Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => match bodies {
-                [BodyId::Block(on), BodyId::Ground(_)] | [BodyId::Ground(_), BodyId::Block(on)] => {
-                    side(Cause::MissingGround, on)
-                }
-                _ => None,
-            },
-            Failure::RobotForce { robot, block, .. } => side(Cause::MissingRobot(robot), block),
-            Failure::RobotTorque { .. } => None,
-        }
-    });
-    let mut all: Vec<Side> = actions.chain(ground).chain(robots).chain(missing).collect();
+    let mut all = acting_forces(scene, &scene.frames[frame], found, Contact::acting);
+    all.retain(|side| !matches!(side.kind.partner(), Some(BodyId::Block(_))));
     let largest = all.iter().map(|side| side.force.norm()).fold(0.0, f64::max);
     all.retain(|side| side.force.norm() > NOISE * largest);
     all
 }
 
 /// True if the sum of the forces is zero, except for rounding.
-fn is_closed(sides: &[Side]) -> bool {
+fn is_closed(sides: &[ActingForce]) -> bool {
     let sum: Vector = sides.iter().map(|side| side.force).sum();
     let all: f64 = sides.iter().map(|side| side.force.norm()).sum();
     sum.norm() <= CLOSURE_TOL * all
@@ -200,10 +134,11 @@ fn is_closed(sides: &[Side]) -> bool {
 
 /// Returns why the polygon of a structure that falls is closed. Missing forces between two blocks act in opposite pairs,
 /// so they do not change the polygon.
-fn closure(sides: &[Side], failures: &[Failure]) -> &'static str {
-    let ground = sides.iter().any(|side| side.cause == Cause::MissingGround);
-    let robots = sides.iter().any(|side| matches!(side.cause, Cause::MissingRobot(_)));
-    let carried: Vec<Side> = sides.iter().filter(|side| !side.cause.is_missing()).cloned().collect();
+fn closure(sides: &[ActingForce], failures: &[Failure]) -> &'static str {
+    let mut missing = sides.iter().filter(|side| side.kind.is_failure());
+    let robots = missing.clone().any(|side| side.kind.robot().is_some());
+    let ground = missing.any(|side| side.kind.robot().is_none());
+    let carried: Vec<ActingForce> = sides.iter().filter(|side| !side.kind.is_failure()).cloned().collect();
     match (ground, robots) {
         (true, false) if !is_closed(&carried) => "the force polygon closes only with the missing forces at the ground",
         (false, true) if !is_closed(&carried) => "the force polygon closes only with the missing forces from robots",
@@ -228,7 +163,7 @@ struct Chain {
 }
 
 /// Returns the corners of a polygon that begins at the origin, N.
-fn corners(sides: &[Side]) -> Vec<Point> {
+fn corners(sides: &[ActingForce]) -> Vec<Point> {
     let mut at = Point::origin();
     let next = sides.iter().map(|side| {
         at += side.force;
@@ -249,7 +184,7 @@ impl Chain {
         let corners = corners(&sides);
         let own = Bounds::from_points(corners.iter().copied()).filter(|_| corners.len() > 2)?;
         let size = own.width().max(own.height());
-        let acting = sides.iter().position(|side| !side.cause.is_action()).unwrap_or(sides.len());
+        let acting = sides.iter().position(|side| !side.kind.is_given()).unwrap_or(sides.len());
         let is_covered = covers(&corners[..=acting], &corners[acting..], size);
         let aside = if is_covered { REACTION_OFFSET * size } else { 0.0 };
         let (share, least) = POLYGON_GAP;
@@ -301,21 +236,21 @@ fn covers(acting: &[Point], answering: &[Point], size: f64) -> bool {
 }
 
 /// Returns the colour of a force.
-fn ink(canvas: &Canvas<'_>, side: &Side) -> Colour {
+fn ink(canvas: &Canvas<'_>, kind: ForceKind) -> Colour {
     let theme = canvas.theme();
-    match side.cause {
-        Cause::Weight => theme.ink,
-        Cause::Load => theme.load,
-        Cause::Ground => theme.arrow(1),
-        Cause::Robot(robot) => theme.letters_on(theme.page, Some(theme.robot(robot.0))),
-        Cause::MissingGround | Cause::MissingRobot(_) => theme.failure,
+    match kind {
+        ForceKind::Weight => theme.ink,
+        ForceKind::Load => theme.load,
+        ForceKind::Robot(robot) => theme.letters_on(theme.page, Some(theme.robot(robot.0))),
+        kind if kind.is_failure() => theme.failure,
+        _ => theme.arrow(1),
     }
 }
 
 /// Returns an arrow of a force, hollow and dashed for a missing force.
-fn shape(canvas: &Canvas<'_>, side: &Side, outline: Outline) -> Path {
-    let (ink, page) = (ink(canvas, side), canvas.theme().page);
-    if side.cause.is_missing() {
+fn shape(canvas: &Canvas<'_>, kind: ForceKind, outline: Outline) -> Path {
+    let (ink, page) = (ink(canvas, kind), canvas.theme().page);
+    if kind.is_failure() {
         let edge = Stroke::new(ink, canvas.mm(0.22)).dashed([canvas.mm(0.55), canvas.mm(0.4)]);
         return Path::filled(outline, page).with_stroke(edge);
     }
@@ -323,53 +258,50 @@ fn shape(canvas: &Canvas<'_>, side: &Side, outline: Outline) -> Path {
 }
 
 /// Describes a force, such as `Weight of block a: 6 N at 270°`.
-fn title(canvas: &Canvas<'_>, side: &Side) -> String {
+fn title(canvas: &Canvas<'_>, side: &ActingForce) -> String {
     let scene = canvas.scene();
-    let (on, amount) = (&scene.blocks[side.on.0].id, force(side.force, scene.units));
-    match side.cause {
-        Cause::Weight => format!("Weight of block {on}: {amount}"),
-        Cause::Load => format!("Load on block {on}: {amount}"),
-        Cause::Ground => format!("Force on block {on} from the ground: {amount}"),
-        Cause::Robot(robot) => format!("Force on block {on} from robot {}: {amount}", scene.robots[robot.0].id),
-        Cause::MissingGround => format!("Missing force on block {on} from the ground: {amount}"),
-        Cause::MissingRobot(robot) => {
-            format!("Missing force on block {on} from robot {}: {amount}", scene.robots[robot.0].id)
+    let what = match side.kind.partner() {
+        Some(_) => {
+            let word = if side.kind.is_failure() { "Missing force" } else { "Force" };
+            format!("{word} on block {} from the ground", scene.blocks[side.on.0].id)
         }
-    }
+        None => described(scene, side.kind, BodyId::Block(side.on)),
+    };
+    format!("{what}: {}", force(side.force, scene.units))
 }
 
 /// Returns the name of each force in the figure: a letter for each of the largest forces of the ground, from left to
 /// right, and the names of robots. Other forces have no names.
-fn names(canvas: &Canvas<'_>, sides: &[Side]) -> Vec<Option<String>> {
-    let mut ground: Vec<usize> = (0..sides.len()).filter(|i| sides[*i].cause == Cause::Ground).collect();
+fn names(canvas: &Canvas<'_>, sides: &[ActingForce]) -> Vec<Option<String>> {
+    let mut ground: Vec<usize> = (0..sides.len()).filter(|i| matches!(sides[*i].kind, ForceKind::Contact(_))).collect();
     ground.sort_by(|a, b| sides[*b].force.norm().total_cmp(&sides[*a].force.norm()));
     ground.truncate(MAX_LETTERS);
     ground.sort_by(|a, b| sides[*a].at.x.total_cmp(&sides[*b].at.x));
-    let name = |(number, side): (usize, &Side)| match side.cause {
-        Cause::Robot(robot) => Some(canvas.scene().robots[robot.0].id.clone()),
+    let name = |(number, side): (usize, &ActingForce)| match side.kind {
+        ForceKind::Robot(robot) => Some(canvas.scene().robots[robot.0].id.clone()),
         _ => ground.iter().position(|i| *i == number).map(|place| letter(place).to_uppercase()),
     };
     sides.iter().enumerate().map(name).collect()
 }
 
 /// Draws the forces of the ground and of robots at the structure, with their names, and the missing forces.
-fn at_structure(canvas: &mut Canvas<'_>, sides: &[Side]) {
+fn at_structure(canvas: &mut Canvas<'_>, sides: &[ActingForce]) {
     for (side, name) in sides.iter().zip(names(canvas, sides)) {
         let norm = side.force.norm();
-        if side.cause.is_action() {
+        if side.kind.is_given() {
             continue;
         }
         let u = direction(side.force);
         let (at, length) = (canvas.place(side.at), (canvas.scale * norm).max(canvas.mm(1.6)));
         let head = (canvas.mm(1.7), canvas.mm(1.7).min(0.62 * length));
         let outline = ArrowSize { length, shaft: canvas.mm(0.7), head }.outline(at, u);
-        let layer = if side.cause.is_missing() { Layer::Missing } else { Layer::Force };
-        let mark = Mark::new(layer, "force", vec![shape(canvas, side, outline)]).titled(title(canvas, side));
+        let layer = if side.kind.is_failure() { Layer::Missing } else { Layer::Force };
+        let mark = Mark::new(layer, "force", vec![shape(canvas, side.kind, outline)]).titled(title(canvas, side));
         canvas.put(mark.avoided(canvas.mm(0.2)));
-        if let Some(name) = name.filter(|_| side.cause == Cause::Ground && canvas.options.labels) {
+        if let Some(name) = name.filter(|_| matches!(side.kind, ForceKind::Contact(_)) && canvas.options.labels) {
             let anchors = vec![along(at, u, 0.0, 0.0), along(at, u, 0.5 * length, 0.0)];
             let away = Some((-u.0, -u.1));
-            canvas.label(Label { bold: true, away, ..Label::new(name, ink(canvas, side), anchors, 3) });
+            canvas.label(Label { bold: true, away, ..Label::new(name, ink(canvas, side.kind), anchors, 3) });
         }
     }
 }
@@ -377,25 +309,25 @@ fn at_structure(canvas: &mut Canvas<'_>, sides: &[Side]) {
 /// Draws the force polygon of the frame, with the names and the amounts of its sides. If actions and reactions are
 /// drawn apart, dashed lines connect the two positions of each common corner. A dashed line closes the gap of an open
 /// polygon.
-fn polygon(canvas: &mut Canvas<'_>, sides: &[Side]) {
+fn polygon(canvas: &mut Canvas<'_>, sides: &[ActingForce]) {
     let Some(chain) = Chain::new(canvas.analysis, canvas.number) else { return };
     let (theme, units) = (canvas.theme(), canvas.scene().units.force());
     let (missing_key, scale_key, join_key) = keys(canvas, &chain);
-    let tagged: Vec<(&Side, Option<String>)> = sides.iter().zip(names(canvas, sides)).collect();
+    let tagged: Vec<(&ActingForce, Option<String>)> = sides.iter().zip(names(canvas, sides)).collect();
     let middle = chain.sides.iter().flatten().map(|p| p.x).sum::<f64>() / (2 * chain.sides.len()).max(1) as f64;
     for ((side, name), ends) in tagged.into_iter().zip(&chain.sides) {
         let [from, to] = ends.map(|p| canvas.place(p));
         let length = to.distance(from).max(1e-9);
         let u = ((to.x - from.x) / length, (to.y - from.y) / length);
-        let wide = if side.cause.is_missing() { 0.9 } else { 0.42 };
+        let wide = if side.kind.is_failure() { 0.9 } else { 0.42 };
         let head = (canvas.mm(1.2 + wide), canvas.mm(1.7).min(0.6 * length));
         let outline = ArrowSize { length, shaft: canvas.mm(wide), head }.outline(from, u);
-        let mark = Mark::new(Layer::Force, "side", vec![shape(canvas, side, outline)]).titled(title(canvas, side));
-        let mark = if side.cause.is_missing() { mark.keyed(&missing_key) } else { mark };
+        let mark = Mark::new(Layer::Force, "side", vec![shape(canvas, side.kind, outline)]).titled(title(canvas, side));
+        let mark = if side.kind.is_failure() { mark.keyed(&missing_key) } else { mark };
         canvas.put(mark.avoided(canvas.mm(0.2)));
         let amount = quantity(side.force.norm(), units);
-        let words = match (side.cause, name) {
-            (Cause::Load | Cause::MissingGround | Cause::MissingRobot(_), _) => amount,
+        let words = match (side.kind, name) {
+            (kind, _) if kind == ForceKind::Load || kind.is_failure() => amount,
             (_, Some(name)) => format!("{name}: {amount}"),
             _ => continue,
         };
@@ -403,7 +335,7 @@ fn polygon(canvas: &mut Canvas<'_>, sides: &[Side]) {
         let outward = if nalgebra::center(&ends[0], &ends[1]).x < middle { -1.0 } else { 1.0 };
         let anchors = [0.5, 0.3, 0.7].map(|share| along(from, u, share * length, 0.0)).to_vec();
         if canvas.options.labels && canvas.options.main_amounts {
-            let label = Label::new(words, ink(canvas, side), anchors, 4);
+            let label = Label::new(words, ink(canvas, side.kind), anchors, 4);
             canvas.label(Label { away: Some((outward, 0.0)), ..label });
         }
     }
@@ -426,9 +358,9 @@ fn polygon(canvas: &mut Canvas<'_>, sides: &[Side]) {
 }
 
 /// Writes the sum of the weights beside their sides, if these follow one another without a load between them.
-fn weights(canvas: &mut Canvas<'_>, sides: &[Side], chain: &Chain) {
-    let count = sides.iter().take_while(|side| side.cause == Cause::Weight).count();
-    let all = sides.iter().filter(|side| side.cause == Cause::Weight).count();
+fn weights(canvas: &mut Canvas<'_>, sides: &[ActingForce], chain: &Chain) {
+    let count = sides.iter().take_while(|side| side.kind == ForceKind::Weight).count();
+    let all = sides.iter().filter(|side| side.kind == ForceKind::Weight).count();
     let Some([[from, _], [_, to]]) =
         chain.sides.first().zip(chain.sides.get(count.wrapping_sub(1))).map(|(a, b)| [*a, *b])
     else {
@@ -457,9 +389,8 @@ fn keys(canvas: &Canvas<'_>, chain: &Chain) -> (Rc<Key>, Rc<Key>, Rc<Key>) {
         let head = (canvas.mm(1.2 + shaft), canvas.mm(1.7).min(0.6 * length));
         ArrowSize { length, shaft: canvas.mm(shaft), head }.outline(start, (1.0, 0.0))
     };
-    let missing = Side { cause: Cause::MissingGround, on: BlockId(0), at: Point::origin(), force: Vector::zeros() };
     let width = canvas.mm(4.8);
-    let symbol = vec![shape(canvas, &missing, arrow(width, 0.9))];
+    let symbol = vec![shape(canvas, ForceKind::MissingPull(BodyId::Ground(0)), arrow(width, 0.9))];
     let missing = Key::new(50, "missing", symbol, width);
     let scale = canvas.camera.length(chain.scale);
     let amount = round_below_in(canvas.mm(SCALE_ARROW) / scale, units);

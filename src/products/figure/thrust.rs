@@ -18,16 +18,18 @@ use leaving::{left_at, slips, with_missing_forces};
 
 use super::bearing::bearings;
 use super::canvas::Canvas;
+use super::description::exerter;
 use super::design::{Key, Layer, Mark, unit};
-use super::funicular::{ForceOrigin, ThrustSegment, segments};
+use super::funicular::{ThrustSegment, segments};
 use super::option::Options;
 use super::panel::{About, Figure, Subject};
 use super::{load, stage};
-use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict};
-use crate::mechanics::scene::BodyId;
+use crate::mechanics::analysis::{
+    Analysis, Contact, ForceKind, FrameAnalysis, MarginKind, ThrustState, ThrustStates, Verdict,
+};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
-use crate::products::wording::failure::{named, pair};
+use crate::products::wording::failure::pair;
 use crate::products::wording::number::{counted, force, listed, quantity};
 use crate::products::wording::verdict;
 
@@ -209,9 +211,7 @@ impl Keys {
         let (mut many, mut central) = (false, false);
         for (number, found) in analysis.frames.iter().enumerate() {
             let shown = shown(states(canvas, number), found);
-            let contacts = shown.contacts.iter().map(|contact| contact.resultant.force);
-            let forces = contacts.chain(shown.robots.iter().map(|robot| robot.force));
-            largest = forces.map(|force| force.norm()).fold(largest, f64::max);
+            largest = largest.max(shown.largest_force());
             let is_central = states(canvas, number).central.is_some();
             many |= has_many_lines(canvas, number) && !is_central;
             central |= is_central;
@@ -289,23 +289,18 @@ fn lines(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, segments: &[ThrustSegme
         }
         let class = if segment.through { "thrust" } else { "schematic" };
         let mark = Mark::new(Layer::Force, class, shapes).keyed(key);
-        canvas.put(mark.titled(title(canvas, shown, segment)).avoided(canvas.mm(0.1)));
+        canvas.put(mark.titled(title(canvas, segment)).avoided(canvas.mm(0.1)));
     }
 }
 
 /// Describes a segment of the line of thrust: its block, what exerts the force along the segment, and the magnitude of
 /// this force.
-fn title(canvas: &Canvas<'_>, shown: &FrameAnalysis, segment: &ThrustSegment) -> String {
+fn title(canvas: &Canvas<'_>, segment: &ThrustSegment) -> String {
     let scene = canvas.scene();
     let on = &scene.blocks[segment.on.0].id;
-    let by = match segment.origin {
-        ForceOrigin::Contact(number) => {
-            let [a, b] = shown.contacts[number].interface.bodies;
-            named(scene, if a == BodyId::Block(segment.on) { b } else { a })
-        }
-        ForceOrigin::Robot(robot) => format!("robot {}", scene.robots[robot.0].id),
-        ForceOrigin::Load(_) => "a load".to_owned(),
-        ForceOrigin::Resultant => "a joint, combined with loads".to_owned(),
+    let by = match segment.kind {
+        ForceKind::Load => "a load".to_owned(),
+        kind => exerter(scene, kind).unwrap_or("a joint, combined with loads".to_owned()),
     };
     let force = force(segment.force, scene.units);
     if segment.through {
@@ -332,7 +327,7 @@ fn dots(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, keys: &Keys) {
             let title = format!("The line of thrust is too steep for the friction between {pair}");
             Mark::new(Layer::Missing, "slips", vec![steep(canvas, at)]).titled(title).keyed(&keys.slips)
         } else {
-            let amount = quantity(contact.resultant.force.norm(), scene.units.force());
+            let amount = quantity(contact.amount(), scene.units.force());
             let mark = Mark::new(Layer::Symbol, "resultant", vec![dot(canvas, at)]).keyed(&keys.dot);
             mark.titled(format!("Between {pair}: {amount}"))
         };

@@ -130,10 +130,9 @@ pub(super) fn csv_rows(origin: &Origin, analysis: &Analysis) -> String {
         let [start, title] = [place(origin), cell(&frame.title)];
         let name = cell(&scene.title);
         let verdict = answer.verdict.word();
-        let forces = answer.contacts.iter().map(|c| c.resultant.force.norm());
         let numbers = [
             answer.weight,
-            forces.fold(0.0, f64::max),
+            answer.largest_at_contacts(),
             answer.total_force,
             answer.total_sticking,
             (answer.contacts.iter().map(|c| c.friction_used)).fold(0.0, f64::max),

@@ -8,9 +8,9 @@
 
 use super::path::{self, LineOfAction, TruePath, curve, moved_inside};
 use crate::geometry::{Point, Polygon, Vector, quarter_turn};
-use crate::mechanics::analysis::{Contact, Failure, FrameAnalysis};
-use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause, Frame, RobotId, Scene};
-use crate::products::figure::bearing::{self, bearings};
+use crate::mechanics::analysis::{ActingForce, Contact, Failure, ForceKind, FrameAnalysis, by_block};
+use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, Frame, Scene};
+use crate::products::figure::bearing::pressing;
 
 /// If the component of a force along gravity is at most this fraction of the force, the component across gravity
 /// decides whether the force enters or leaves the block.
@@ -25,31 +25,6 @@ const OUTSIDE_SHARE: f64 = 0.15;
 /// Distance from a missing force at which a point is tested to find the side on which the block lies. It is a fraction
 /// of the total width of the strands of this force.
 const SIDE_SHARE: f64 = 0.5;
-
-/// The origin of a force on a block.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Origin {
-    /// Another body, through the contact with this index.
-    Contact(usize),
-    /// A robot.
-    Robot(RobotId),
-    /// A load.
-    Load,
-    /// The weight of the block.
-    Weight,
-    /// The missing force of the failure with this index.
-    Missing(usize),
-}
-
-/// A force on a block.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ForceOnBlock {
-    pub origin: Origin,
-    /// A point of its line of action, metres: where it enters or leaves the block.
-    pub at: Point,
-    /// The force on the block, N.
-    pub force: Vector,
-}
 
 /// The kind of force that a strand shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,8 +43,8 @@ pub(crate) struct Strand {
     /// The block through which the strand runs.
     pub on: BlockId,
     pub kind: StrandKind,
-    pub from: Origin,
-    pub to: Origin,
+    pub from: ForceKind,
+    pub to: ForceKind,
     /// The axis of the strand, metres, from the point where the force enters the block to the point where it leaves.
     pub axis: Vec<Point>,
     /// The width of the strand at each point of the axis, N. A point that occurs twice has two widths, before and after
@@ -114,60 +89,19 @@ pub(crate) fn strands(
 
 /// Returns the forces on each block, indexed by block: weight, loads, forces of contacts and robots, and missing
 /// forces. The force of a joint acts where its strand has space in the joint.
-fn acting(
-    scene: &Scene,
-    frame: &Frame,
-    frame_analysis: &FrameAnalysis,
-    metres_per_newton: f64,
-) -> Vec<Vec<ForceOnBlock>> {
-    let mut acting: Vec<Vec<ForceOnBlock>> = vec![Vec::new(); scene.blocks.len()];
-    let mut act = |body: BodyId, origin: Origin, at: Point, force: Vector| {
-        if let BodyId::Block(block) = body {
-            acting[block.0].push(ForceOnBlock { origin, at, force });
-        }
-    };
-    for (number, bearing) in bearings(scene, frame_analysis).iter().enumerate() {
-        let contact = &frame_analysis.contacts[number];
-        let force = contact.resultant.force;
-        let at = within_joint(contact, metres_per_newton * force.norm());
-        if bearing.is_some() {
-            for body in contact.interface.bodies {
-                let sign = if body == contact.resultant.on { 1.0 } else { -1.0 };
-                act(body, Origin::Contact(number), at, force * sign);
-            }
-        }
-    }
-    for robot in &frame_analysis.robots {
-        let noise = bearing::noise(f64::INFINITY, scene.blocks[robot.block.0].weight);
-        if robot.force.norm() > noise {
-            let on = BodyId::Block(robot.block);
-            act(on, Origin::Robot(robot.robot), robot.at, robot.force);
-        }
-    }
-    let failures = frame_analysis.failures.iter();
-    let largest = failures.map(|f| f.force().norm()).fold(0.0, f64::max);
-    for (number, failure) in frame_analysis.failures.iter().enumerate() {
-        if failure.force().norm() < LEAST_MISSING * largest {
-            continue;
-        }
-        for (body, force) in missing(failure) {
-            act(body, Origin::Missing(number), failure.at(), force);
-        }
-    }
+fn acting(scene: &Scene, frame: &Frame, found: &FrameAnalysis, metres_per_newton: f64) -> Vec<Vec<ActingForce>> {
+    let at = |contact: &Contact| within_joint(contact, metres_per_newton * contact.amount());
+    let mut forces = pressing(scene, found, at);
+    let missing: Vec<ActingForce> = found.failures.iter().flat_map(Failure::acting).collect();
+    let largest = missing.iter().map(|acting| acting.force.norm()).fold(0.0, f64::max);
+    forces.extend(missing.iter().filter(|acting| acting.force.norm() >= LEAST_MISSING * largest));
     let applied = scene.applied_forces();
-    let (weights, loads): (Vec<&AppliedForce>, Vec<&AppliedForce>) =
-        (frame.placed.iter().flat_map(|id| &applied[id.0])).partition(|applied| applied.cause == ForceCause::Weight);
-    for applied in loads.into_iter().chain(weights) {
-        let origin = match applied.cause {
-            ForceCause::Weight => Origin::Weight,
-            ForceCause::Load(_) => Origin::Load,
-        };
-        if applied.force.norm() > 0.0 {
-            let on = BodyId::Block(applied.block);
-            act(on, origin, applied.at, applied.force);
-        }
-    }
-    acting
+    let mut given: Vec<ActingForce> =
+        frame.placed.iter().flat_map(|id| &applied[id.0]).map(AppliedForce::acting).collect();
+    given.sort_by_key(|acting| acting.kind == ForceKind::Weight);
+    forces.extend(given);
+    forces.retain(|acting| acting.force.norm() > 0.0);
+    by_block(forces, scene.blocks.len())
 }
 
 /// Returns the point of a joint at which a strand of the given width, metres, ends. This is the point of the resultant.
@@ -178,36 +112,24 @@ fn within_joint(contact: &Contact, width: f64) -> Point {
     let (middle, tangent) = (interface.middle(), interface.tangent());
     let along = (at - middle).dot(&tangent);
     let room = 0.5 * interface.length() - 0.5 * width;
-    let is_foot = interface.bodies.iter().any(|body| matches!(body, BodyId::Ground(_)));
+    let is_foot = matches!(interface.bodies[1], BodyId::Ground(_));
     let is_outside = along.abs() > room + OUTSIDE_SHARE * width && room > 0.0;
     if is_foot && is_outside { middle + tangent * along.clamp(-room, room) } else { at }
-}
-
-/// Returns each body on which the missing force of a failure acts, with the force on this body in N. The list is empty
-/// for a missing torque.
-fn missing(failure: &Failure) -> Vec<(BodyId, Vector)> {
-    match *failure {
-        Failure::Tension { bodies, force, .. } | Failure::Friction { bodies, force, .. } => {
-            vec![(bodies[0], force), (bodies[1], -force)]
-        }
-        Failure::RobotForce { block, force, .. } => vec![(BodyId::Block(block), force)],
-        Failure::RobotTorque { .. } => Vec::new(),
-    }
 }
 
 /// Returns the strands of a block along true lines of action. Apart from its weight and its loads, exactly two forces
 /// must act on the block, both from contacts or robots, and no load may have a torque. Otherwise, or if no path along
 /// true lines exists, returns `None`.
-fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec<Strand>> {
-    let presses = |f: &&ForceOnBlock| matches!(f.origin, Origin::Contact(_) | Origin::Robot(_));
-    let given = |f: &&ForceOnBlock| matches!(f.origin, Origin::Load | Origin::Weight);
+fn true_lines(scene: &Scene, on: BlockId, forces: &[ActingForce]) -> Option<Vec<Strand>> {
+    let presses = |f: &&ActingForce| matches!(f.kind, ForceKind::Contact(_) | ForceKind::Robot(_));
+    let given = |f: &&ActingForce| f.kind.is_given();
     let turned = |load: &crate::mechanics::scene::Load| load.block == on && load.torque != 0.0;
-    let pressing: Vec<&ForceOnBlock> = forces.iter().filter(presses).collect();
+    let pressing: Vec<&ActingForce> = forces.iter().filter(presses).collect();
     let [one, other] = pressing[..] else {
         return None;
     };
     // The path begins at the joint whose force has the larger downward component.
-    let along = |f: &ForceOnBlock| f.force.dot(&scene.down());
+    let along = |f: &ActingForce| f.force.dot(&scene.down());
     let (first, second) = if along(one) < along(other) { (other, one) } else { (one, other) };
     let loads: Vec<LineOfAction> = forces.iter().filter(given).map(line_of_action).collect();
     if loads.len() + 2 != forces.len() || scene.loads.iter().any(turned) {
@@ -215,8 +137,8 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec
     }
     let polygon = &scene.blocks[on.0].body.polygon;
     let path = path::path(polygon, line_of_action(first), line_of_action(second), &loads)?;
-    let given: Vec<&ForceOnBlock> = forces.iter().filter(given).collect();
-    let ends = [first.origin, second.origin];
+    let given: Vec<&ActingForce> = forces.iter().filter(given).collect();
+    let ends = [first.kind, second.kind];
     let same_place = SAME_PLACE * polygon.area().sqrt();
     Some(exact_strands(on, ends, path, &given, same_place))
 }
@@ -229,18 +151,15 @@ fn true_lines(scene: &Scene, on: BlockId, forces: &[ForceOnBlock]) -> Option<Vec
 /// drawn on both sides of the path, so that a reader can distinguish it from the force that the block transmits.
 fn exact_strands(
     on: BlockId,
-    [from, to]: [Origin; 2],
+    [from, to]: [ForceKind; 2],
     path: TruePath,
-    loads: &[&ForceOnBlock],
+    loads: &[&ActingForce],
     same_place: f64,
 ) -> Vec<Strand> {
-    let strand = |origin: Origin, corners: &[Point], amounts: &[f64]| Strand {
+    let strand = |kind: ForceKind, corners: &[Point], amounts: &[f64]| Strand {
         on,
-        kind: match origin {
-            Origin::Weight => StrandKind::Weight,
-            _ => StrandKind::Carried,
-        },
-        from: origin,
+        kind: if kind == ForceKind::Weight { StrandKind::Weight } else { StrandKind::Carried },
+        from: kind,
         to,
         axis: corners.windows(2).flatten().copied().collect(),
         widths: amounts.iter().flat_map(|w| [*w; 2]).collect(),
@@ -253,12 +172,15 @@ fn exact_strands(
         let load = loads[*load];
         let amount = load.force.norm();
         let on_path = (load.at - corner).norm() <= same_place;
-        let joining = if on_path && load.origin == Origin::Weight {
+        let joining = if on_path && load.kind == ForceKind::Weight {
             let behind = number + 1;
             core[behind..].iter_mut().for_each(|w| *w = (*w - amount).max(0.0));
-            Strand { amounts: [amount; 2], ..strand(Origin::Weight, &path.corners[behind..], &path.amounts[behind..]) }
+            Strand {
+                amounts: [amount; 2],
+                ..strand(ForceKind::Weight, &path.corners[behind..], &path.amounts[behind..])
+            }
         } else {
-            strand(load.origin, &[load.at, *corner], &[amount])
+            strand(load.kind, &[load.at, *corner], &[amount])
         };
         strands.push(joining);
     }
@@ -266,7 +188,7 @@ fn exact_strands(
     strands
 }
 
-fn line_of_action(acting: &ForceOnBlock) -> LineOfAction {
+fn line_of_action(acting: &ActingForce) -> LineOfAction {
     LineOfAction { at: acting.at, force: acting.force }
 }
 
@@ -283,7 +205,7 @@ impl ForceDistribution<'_> {
     /// True if a force enters the block, so that a strand begins there. A force enters if its component along gravity
     /// is positive, and leaves the block otherwise. For a force perpendicular to gravity, the sign of its component
     /// across gravity decides.
-    fn enters(&self, acting: &ForceOnBlock) -> bool {
+    fn enters(&self, acting: &ActingForce) -> bool {
         let along = acting.force.dot(&self.down);
         if along.abs() > ALONG_GRAVITY_TOL * acting.force.norm() {
             return along > 0.0;
@@ -292,9 +214,9 @@ impl ForceDistribution<'_> {
     }
 
     /// Returns one strand for each pair of a force that enters the block and a force that leaves it.
-    fn strands(&self, forces: &[ForceOnBlock]) -> Vec<Strand> {
-        let (ins, outs): (Vec<&ForceOnBlock>, Vec<&ForceOnBlock>) = forces.iter().partition(|f| self.enters(f));
-        let sum = |side: &[&ForceOnBlock]| side.iter().map(|f| f.force.norm()).sum::<f64>();
+    fn strands(&self, forces: &[ActingForce]) -> Vec<Strand> {
+        let (ins, outs): (Vec<&ActingForce>, Vec<&ActingForce>) = forces.iter().partition(|f| self.enters(f));
+        let sum = |side: &[&ActingForce]| side.iter().map(|f| f.force.norm()).sum::<f64>();
         let (entering, leaving) = (sum(&ins), sum(&outs));
         if ins.is_empty() || outs.is_empty() {
             return Vec::new();
@@ -321,17 +243,17 @@ impl ForceDistribution<'_> {
     /// of the magnitudes of all `partners`, N.
     fn end(
         &self,
-        acting: &ForceOnBlock,
+        acting: &ActingForce,
         force: Vector,
-        partners: &[&ForceOnBlock],
-        partner: &ForceOnBlock,
+        partners: &[&ActingForce],
+        partner: &ActingForce,
         sum: f64,
     ) -> (Point, Vector) {
         let at = acting.at;
         let (along, width) = (force / force.norm(), force.norm());
         let aside = quarter_turn(along);
-        let place = |p: &ForceOnBlock| (p.at - at).dot(&aside);
-        let share = |p: &ForceOnBlock| p.force.norm() / sum;
+        let place = |p: &ActingForce| (p.at - at).dot(&aside);
+        let share = |p: &ActingForce| p.force.norm() / sum;
         let own = place(partner);
         let mut before = 0.0;
         for other in partners {
@@ -341,10 +263,8 @@ impl ForceDistribution<'_> {
                 before += share(other);
             }
         }
-        let side = match acting.origin {
-            Origin::Missing(_) => self.side(at, aside * (width * self.metres_per_newton)),
-            _ => 0.0,
-        };
+        let is_missing = acting.kind.is_failure();
+        let side = if is_missing { self.side(at, aside * (width * self.metres_per_newton)) } else { 0.0 };
         let middle = width * (before + 0.5 * share(partner) - 0.5 + 0.5 * side);
         (at + aside * (middle * self.metres_per_newton), along)
     }
@@ -361,11 +281,10 @@ impl ForceDistribution<'_> {
         }
     }
 
-    fn strand(&self, from: &ForceOnBlock, to: &ForceOnBlock, ends: [(Point, Vector); 2], widths: [f64; 2]) -> Strand {
-        let missing = |f: &ForceOnBlock| matches!(f.origin, Origin::Missing(_));
-        let kind = match from.origin {
-            _ if missing(from) || missing(to) => StrandKind::Missing,
-            Origin::Weight => StrandKind::Weight,
+    fn strand(&self, from: &ActingForce, to: &ActingForce, ends: [(Point, Vector); 2], widths: [f64; 2]) -> Strand {
+        let kind = match from.kind {
+            _ if from.kind.is_failure() || to.kind.is_failure() => StrandKind::Missing,
+            ForceKind::Weight => StrandKind::Weight,
             _ => StrandKind::Carried,
         };
         let mut axis = curve(self.polygon, ends);
@@ -376,15 +295,6 @@ impl ForceDistribution<'_> {
             let metres: Vec<f64> = steps.iter().map(|w| w * self.metres_per_newton).collect();
             moved_inside(self.polygon, &mut axis, &metres);
         }
-        Strand {
-            on: self.on,
-            kind,
-            from: from.origin,
-            to: to.origin,
-            widths: steps,
-            axis,
-            amounts: widths,
-            exact: false,
-        }
+        Strand { on: self.on, kind, from: from.kind, to: to.kind, widths: steps, axis, amounts: widths, exact: false }
     }
 }

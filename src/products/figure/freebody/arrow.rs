@@ -2,7 +2,7 @@
 //! or all forces that may act at its corners, and the unit normals.
 
 use super::Body;
-use super::force::{Cause, Detail, Force, detail};
+use super::force::{Detail, Force, detail};
 use super::surroundings::{aside, corners, distinct, inward};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::analysis::Contact;
@@ -121,7 +121,7 @@ fn length_factor(canvas: &Canvas<'_>, block: BlockId) -> f64 {
 
 /// Returns the least length of the arrow of a force, pixels.
 pub(super) fn least_length(canvas: &Canvas<'_>, force: &Force) -> f64 {
-    canvas.mm(if force.is_missing() { LEAST_MISSING_LENGTH } else { LEAST_LENGTH })
+    canvas.mm(if force.kind.is_failure() { LEAST_MISSING_LENGTH } else { LEAST_LENGTH })
 }
 
 /// Makes the arrows of a free body. Their lengths are proportional to the forces, but at least [`least_length`]. With
@@ -203,12 +203,12 @@ impl<'c, 'a> Arrows<'c, 'a> {
         let mut arrows = Vec::new();
         for force in &self.body.forces {
             // If arrows only name forces, `corners` makes the arrows of the interfaces.
-            if self.naming && force.cause.is_interface() {
+            if self.naming && force.kind.is_contact() {
                 continue;
             }
-            let missing = force.is_missing();
+            let missing = force.kind.is_failure();
             let norm = force.force.norm();
-            let is_given = missing || force.is_load() || force.cause == Cause::Weight;
+            let is_given = missing || force.kind.is_given();
             let straight = Arrow {
                 symbol: Some(force.symbol.clone()),
                 width: if missing { MISSING_WIDTH } else { 1.0 },

@@ -1,11 +1,12 @@
 //! [`Force`]: a force on a block with its name in a free-body diagram. [`forces`] collects all forces on the block.
 
+use super::super::description::{exerter, word};
 use super::super::option::{Corners, Options};
-use super::surroundings::{Corner, corners, distinct, inward, other};
+use super::surroundings::{Corner, corners, distinct, inward};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
-use crate::mechanics::analysis::{Analysis, Contact, Failure, FrameAnalysis};
+use crate::mechanics::analysis::{ActingForce, Analysis, Contact, Failure, ForceKind, FrameAnalysis};
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause, Scene};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::pictures::drawing::Colour;
 use crate::pictures::drawing::symbol::{Accent, Symbol};
 use crate::products::wording::number::{force as amount, quantity};
@@ -17,54 +18,13 @@ const MAX_INTERFACES_BY_CORNER: usize = 3;
 /// rounding errors of the solver.
 const FORCE_TOL: f64 = 1e-9;
 
-/// What exerts a force on a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Cause {
-    Weight,
-    /// The force of a load.
-    Load,
-    /// The torque of a load.
-    LoadTorque,
-    /// The normal force at an end of an interface, the friction force there, or both.
-    Normal,
-    Friction,
-    Contact,
-    /// The force of a robot.
-    Robot,
-    /// The torque of a robot.
-    RobotTorque,
-    /// A missing force or torque; the word says which.
-    Missing(&'static str),
-}
-
-impl Cause {
-    /// The word for the force, such as `Weight`.
-    fn word(self) -> &'static str {
-        match self {
-            Cause::Weight => "Weight",
-            Cause::Load => "Load",
-            Cause::LoadTorque => "Torque of a load",
-            Cause::Normal => "Normal force",
-            Cause::Friction => "Friction force",
-            Cause::Contact | Cause::Robot => "Force",
-            Cause::RobotTorque => "Torque",
-            Cause::Missing(word) => word,
-        }
-    }
-
-    /// True for a force of an interface.
-    pub(super) fn is_interface(self) -> bool {
-        matches!(self, Cause::Normal | Cause::Friction | Cause::Contact)
-    }
-}
-
 /// A force on the block.
 #[derive(Clone, Debug)]
 pub(super) struct Force {
     /// The name of the force.
     pub symbol: Symbol,
-    /// What exerts the force.
-    pub cause: Cause,
+    /// The kind of the force, and what exerts it.
+    pub kind: ForceKind,
     /// The origin of the force, such as the name of a block.
     pub from: String,
     /// The point where the force acts, metres.
@@ -85,12 +45,7 @@ impl Force {
 
     /// True for a force or a torque of a load.
     pub(super) fn is_load(&self) -> bool {
-        matches!(self.cause, Cause::Load | Cause::LoadTorque)
-    }
-
-    /// True for a missing force or torque.
-    pub(super) fn is_missing(&self) -> bool {
-        matches!(self.cause, Cause::Missing(_))
+        self.kind == ForceKind::Load
     }
 
     /// Describes the force and its magnitude, such as `Weight mg on block a: 6 N at 270°`. `on` is the name of the
@@ -101,7 +56,8 @@ impl Force {
         } else {
             quantity(self.torque, units.torque())
         };
-        format!("{} {} on block {on}: {amount}", self.cause.word(), self.symbol.stated())
+        let word = if self.is_load() && self.torque != 0.0 { "Torque of a load" } else { word(self.kind) };
+        format!("{word} {} on block {on}: {amount}", self.symbol.stated())
     }
 }
 
@@ -164,58 +120,46 @@ struct ForceSource<'a> {
 
 impl ForceSource<'_> {
     /// Returns the weight of the block and the loads on it. A load with a force and a torque has two entries, one for
-    /// each.
+    /// each. The number in the name of a load is its number on this block, from 1.
     fn applied(&self) -> Vec<Force> {
         let mut forces = Vec::new();
-        let mut load_count = 0;
+        let mut number = 0;
         for applied in &self.scene.applied_forces()[self.block.0] {
-            forces.extend(match applied.cause {
-                ForceCause::Weight => vec![self.weight(applied)],
-                ForceCause::Load(_) => {
-                    load_count += 1;
-                    self.load(applied, load_count)
-                }
-            });
+            let acting = applied.acting();
+            if acting.kind == ForceKind::Weight {
+                forces.push(self.entry(acting, weight()));
+                continue;
+            }
+            number += 1;
+            if acting.force.norm() > 0.0 {
+                let push = ActingForce { torque: 0.0, ..acting };
+                forces.push(self.entry(push, Symbol::new("Q", Accent::Arrow, &number.to_string())));
+            }
+            if acting.torque != 0.0 {
+                let turn = ActingForce { force: Vector::zeros(), ..acting };
+                forces.push(self.entry(turn, Symbol::new("M", Accent::None, &format!("Q{number}"))));
+            }
         }
         forces
     }
 
-    /// Returns the weight as an entry of the diagram.
-    fn weight(&self, applied: &AppliedForce) -> Force {
-        Force {
-            symbol: weight(),
-            cause: Cause::Weight,
-            from: "weight".to_owned(),
-            at: applied.at,
-            force: applied.force,
-            torque: 0.0,
-            colour: self.options.theme.ink,
-        }
-    }
-
-    /// Returns the force and the torque of a load, without those that are 0. `number` is the number of the load on this
-    /// block, from 1.
-    fn load(&self, applied: &AppliedForce, number: usize) -> Vec<Force> {
-        let below = number.to_string();
-        let push = Force {
-            symbol: Symbol::new("Q", Accent::Arrow, &below),
-            cause: Cause::Load,
-            from: "load".to_owned(),
-            at: applied.at,
-            force: applied.force,
-            torque: 0.0,
-            colour: self.options.theme.load,
+    /// Creates the entry of a force or a torque.
+    fn entry(&self, acting: ActingForce, symbol: Symbol) -> Force {
+        let ActingForce { kind, at, force, torque, .. } = acting;
+        let (scene, theme) = (self.scene, &self.options.theme);
+        let from = match kind.partner() {
+            Some(BodyId::Ground(_)) => "ground".to_owned(),
+            Some(body) => scene.name(body).to_owned(),
+            None => exerter(scene, kind).unwrap_or(word(kind).to_lowercase()),
         };
-        let turn = Force {
-            symbol: Symbol::new("M", Accent::None, &format!("Q{below}")),
-            cause: Cause::LoadTorque,
-            force: Vector::zeros(),
-            torque: applied.torque,
-            ..push.clone()
+        let from = if kind.is_failure() { format!("missing, {from}") } else { from };
+        let colour = match kind {
+            ForceKind::Load => theme.load,
+            ForceKind::Robot(robot) | ForceKind::RobotTorque(robot) => theme.robot(robot.0).mixed(theme.ink, 0.25),
+            kind if kind.is_failure() => theme.failure,
+            _ => theme.ink,
         };
-        let push = (push.force.norm() > 0.0).then_some(push);
-        let turn = (turn.torque != 0.0).then_some(turn);
-        push.into_iter().chain(turn).collect()
+        Force { symbol, kind, from, at, force, torque, colour }
     }
 
     /// Returns the forces of an interface on the block, at the level of detail of the figure. `number` is the number of
@@ -241,7 +185,7 @@ impl ForceSource<'_> {
         for (number, corner) in self.ends(contact) {
             let named = |kind: &str| Symbol::new("F", Accent::Arrow, &format!("{kind}{number}"));
             let push = normal * corner.normal;
-            forces.push(self.of_contact(contact, Cause::Normal, named("s"), (corner.at, push)));
+            forces.push(self.of_contact(contact, ForceKind::Normal, named("s"), (corner.at, push)));
             let side = if corner.friction >= 0.0 { "fl" } else { "fr" };
             for kind in ["fl", "fr"] {
                 let acts = kind == side && corner.friction.abs() > noise;
@@ -250,7 +194,7 @@ impl ForceSource<'_> {
                 }
                 let amount = if acts { corner.friction } else { 0.0 };
                 let rub = (corner.at, left * amount);
-                forces.push(self.of_contact(contact, Cause::Friction, named(kind), rub));
+                forces.push(self.of_contact(contact, ForceKind::Friction, named(kind), rub));
             }
         }
         forces
@@ -267,7 +211,7 @@ impl ForceSource<'_> {
             let symbol = Symbol::new(letter, accent, &end.to_string());
             let symbol = symbol.raised(&format!("({number})"));
             let sum = corner.on_block(inward(contact, self.block));
-            self.of_contact(contact, Cause::Contact, symbol, (corner.at, sum))
+            self.of_contact(contact, ForceKind::Contact, symbol, (corner.at, sum))
         };
         self.ends(contact).map(force).collect()
     }
@@ -278,7 +222,7 @@ impl ForceSource<'_> {
         let normal = inward(contact, self.block);
         let sum: Vector = ends.iter().map(|corner| corner.on_block(normal)).sum();
         let symbol = Symbol::new("F", Accent::Arrow, &number.to_string());
-        self.of_contact(contact, Cause::Contact, symbol, (contact.resultant.at, sum))
+        self.of_contact(contact, ForceKind::Contact, symbol, (contact.resultant.at, sum))
     }
 
     /// Returns the application points of an interface with their forces on the block, numbered from 1. If the two
@@ -289,91 +233,42 @@ impl ForceSource<'_> {
     }
 
     /// Creates the entry for a force (N) that the interface `contact` exerts on the block at the point `at`.
-    fn of_contact(&self, contact: &Contact, cause: Cause, symbol: Symbol, (at, force): (Point, Vector)) -> Force {
-        Force {
-            symbol,
-            cause,
-            from: self.named(other(contact, self.block)),
-            at,
-            force,
-            torque: 0.0,
-            colour: self.options.theme.ink,
-        }
+    fn of_contact(
+        &self,
+        contact: &Contact,
+        kind: fn(BodyId) -> ForceKind,
+        symbol: Symbol,
+        (at, force): (Point, Vector),
+    ) -> Force {
+        let kind = kind(contact.other(BodyId::Block(self.block)));
+        self.entry(ActingForce { on: self.block, kind, at, force, torque: 0.0 }, symbol)
     }
 
     /// Returns the force of each robot that holds the block, and its torque if the robot can exert torques.
     fn robots(&self) -> Vec<Force> {
-        let (scene, theme) = (self.scene, &self.options.theme);
         let mut forces = Vec::new();
         for held in self.frame_analysis.robots.iter().filter(|r| r.block == self.block) {
-            let robot = &scene.robots[held.robot.0];
-            let push = Force {
-                symbol: Symbol::new("F", Accent::Arrow, "").raised(&robot.id),
-                cause: Cause::Robot,
-                from: format!("robot {}", robot.id),
-                at: held.at,
-                force: held.force,
-                torque: 0.0,
-                colour: theme.robot(held.robot.0).mixed(theme.ink, 0.25),
-            };
-            let turn = Force {
-                symbol: Symbol::new("M", Accent::None, "").raised(&robot.id),
-                cause: Cause::RobotTorque,
-                force: Vector::zeros(),
-                torque: held.torque,
-                ..push.clone()
-            };
-            forces.push(push);
-            forces.extend((robot.limits.torque > 0.0).then_some(turn));
+            let robot = &self.scene.robots[held.robot.0];
+            let push = ActingForce { torque: 0.0, ..held.acting() };
+            forces.push(self.entry(push, Symbol::new("F", Accent::Arrow, "").raised(&robot.id)));
+            if robot.limits.torque > 0.0 {
+                let kind = ForceKind::RobotTorque(held.robot);
+                let turn = ActingForce { kind, force: Vector::zeros(), ..held.acting() };
+                forces.push(self.entry(turn, Symbol::new("M", Accent::None, "").raised(&robot.id)));
+            }
         }
         forces
     }
 
     /// Returns the missing forces and torques on the block, with the names X1, X2 and so on.
     fn missing(&self) -> Vec<Force> {
-        let failures = self.frame_analysis.failures.iter();
-        let missing = failures.filter_map(|failure| self.missing_force(failure));
-        let numbered = missing.enumerate().map(|(number, force)| {
-            let accent = if force.torque == 0.0 { Accent::Arrow } else { Accent::None };
-            Force { symbol: Symbol::new("X", accent, &(number + 1).to_string()), ..force }
-        });
-        numbered.collect()
-    }
-
-    /// Returns the missing force or torque of a failure; its symbol has no number yet. Returns `None` if the force does
-    /// not act on the block.
-    fn missing_force(&self, failure: &Failure) -> Option<Force> {
-        let own = BodyId::Block(self.block);
-        let (force, torque) = failure.on(own)?;
-        let what = match failure {
-            Failure::Tension { .. } => "Missing pull",
-            Failure::Friction { .. } => "Missing friction",
-            Failure::RobotForce { .. } => "Missing force",
-            Failure::RobotTorque { .. } => "Missing torque",
+        let missing = self.frame_analysis.failures.iter().flat_map(Failure::acting);
+        let numbered = (1..).zip(missing.filter(|acting| acting.on == self.block));
+        let entry = |(number, acting): (usize, ActingForce)| {
+            let accent = if acting.torque == 0.0 { Accent::Arrow } else { Accent::None };
+            self.entry(acting, Symbol::new("X", accent, &number.to_string()))
         };
-        let from = match *failure {
-            Failure::Tension { bodies, .. } | Failure::Friction { bodies, .. } => {
-                self.named(bodies.into_iter().find(|body| *body != own)?)
-            }
-            _ => format!("robot {}", self.scene.robots[failure.robot()?.0].id),
-        };
-        Some(Force {
-            symbol: Symbol::new("X", Accent::None, ""),
-            cause: Cause::Missing(what),
-            from: format!("missing, {from}"),
-            at: failure.at(),
-            force,
-            torque,
-            colour: self.options.theme.failure,
-        })
-    }
-
-    /// Returns the name of a body for the list of forces: `ground`, or the name of the block.
-    fn named(&self, body: BodyId) -> String {
-        match body {
-            BodyId::Ground(_) => "ground".to_owned(),
-            BodyId::Block(_) => self.scene.name(body).to_owned(),
-        }
+        numbered.map(entry).collect()
     }
 }
 

@@ -12,10 +12,9 @@ use crate::pictures::drawing::{Face, Item, PagePoint, PageRect, Text, Theme, tex
 pub(super) fn neighbours(contacts: &[&Contact], block: BlockId) -> Vec<BodyId> {
     let mut bodies: Vec<BodyId> = Vec::new();
     for contact in contacts {
-        for body in contact.interface.bodies {
-            if body != BodyId::Block(block) && !bodies.contains(&body) {
-                bodies.push(body);
-            }
+        let body = contact.other(BodyId::Block(block));
+        if !bodies.contains(&body) {
+            bodies.push(body);
         }
     }
     bodies
@@ -68,11 +67,10 @@ impl Corner {
 /// proportion to the normal forces, so that both forces together act at the resultant of the interface. If
 /// the two points coincide, the first of them has the whole force and the second none.
 pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
-    let own = contact.interface.bodies[0] == BodyId::Block(block);
     // Friction is positive along (−n_y, n_x) on the first body. On the second body, the tangent and the force both
     // change their sign, so the number stays the same.
     let friction = contact.friction_force;
-    let pressed: f64 = contact.normal_forces.iter().sum();
+    let pressed = contact.pressed();
     let share = |k: usize| {
         if pressed > 0.0 { contact.normal_forces[k] / pressed } else { 0.5 }
     };
@@ -87,8 +85,7 @@ pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
         (second.normal, second.friction) = (0.0, 0.0);
         return [first, second];
     }
-    let normal = if own { contact.interface.normal } else { -contact.interface.normal };
-    let left = quarter_turn(normal);
+    let left = quarter_turn(inward(contact, block));
     if (first.at - second.at).dot(&left) >= 0.0 { [first, second] } else { [second, first] }
 }
 
@@ -101,12 +98,6 @@ pub(super) fn inward(contact: &Contact, block: BlockId) -> Vector {
     }
 }
 
-/// Returns the other body of a contact of the block.
-pub(super) fn other(contact: &Contact, block: BlockId) -> BodyId {
-    let [first, second] = contact.interface.bodies;
-    if first == BodyId::Block(block) { second } else { first }
-}
-
 /// Returns the point at which the unit normal ŝ is drawn, metres: usually the middle of the interface. If the block has
 /// only this interface (`single`), the point is on the outline of the touching body, `clear` metres beyond an end of
 /// the interface, if there is space for the arrow.
@@ -116,7 +107,7 @@ pub(super) fn aside(scene: &Scene, contact: &Contact, block: BlockId, clear: f64
     if !single {
         return interface.middle();
     }
-    let neighbour = other(contact, block);
+    let neighbour = contact.other(BodyId::Block(block));
     let tries = [interface.ends[1] + along * clear, interface.ends[0] - along * clear];
     let goes_on = |p: &Point| {
         let inside = |beyond: f64| *p + along * beyond - inward * (0.05 * clear);

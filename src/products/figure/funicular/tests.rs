@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::mechanics::analysis::Analysis;
+use crate::mechanics::scene::BodyId;
+use crate::products::figure::bearing::bearings;
 
 fn scene(text: &str) -> Scene {
     Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"))
@@ -61,7 +63,7 @@ fn in_a_loaded_beam_the_reactions_and_the_load_meet_in_one_point() {
     assert_eq!(segments.len(), 3, "{segments:?}");
     let meeting = segments[0].to;
     assert!(segments.iter().all(|s| !s.through && s.to == meeting));
-    let load = segments.iter().find(|s| s.origin == ForceOrigin::Load(0));
+    let load = segments.iter().find(|s| s.kind == ForceKind::Load);
     let load = load.expect("a segment for the load");
     assert_eq!((load.from, load.force), (Point::new(4.0, 1.0), Vector::new(0.0, -12.0)));
 }
@@ -105,7 +107,7 @@ fn a_load_bends_the_line_of_thrust_on_its_line_of_action() {
     let [main, load] = &segments[..] else { panic!("{segments:?}") };
     assert!((main.from - Point::new(2.75, 0.0)).norm() < 1e-6, "{main:?}");
     assert!((main.to - Point::new(2.0, 3.0)).norm() < 1e-6, "{main:?}");
-    assert_eq!(load.origin, ForceOrigin::Load(0));
+    assert_eq!(load.kind, ForceKind::Load);
     assert!((load.from - Point::new(0.0, 3.0)).norm() < 1e-9);
     assert!((load.to - main.to).norm() < 1e-6);
 }

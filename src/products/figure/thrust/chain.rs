@@ -1,7 +1,7 @@
 //! [`Chain`]: a sequence of blocks in which forces pass from one joint to the next, such as the blocks of an arch.
 
 use crate::geometry::{Vector, quarter_turn};
-use crate::mechanics::analysis::{Contact, FrameAnalysis};
+use crate::mechanics::analysis::FrameAnalysis;
 use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
 
 use super::super::bearing::bearings;
@@ -47,18 +47,14 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysi
     let mut joints: Vec<Vec<usize>> = vec![Vec::new(); scene.blocks.len()];
     for (number, contact) in frame_analysis.contacts.iter().enumerate() {
         if bearings[number].is_some() {
-            for body in contact.interface.bodies {
-                if let BodyId::Block(block) = body {
-                    joints[block.0].push(number);
-                }
-            }
+            contact.acting().iter().for_each(|acting| joints[acting.on.0].push(number));
         }
     }
     let across = quarter_turn(scene.down());
     let mut chains: Vec<Chain> = Vec::new();
     for block in frame.placed.iter().filter(|b| joints[b.0].len() == 2) {
         for first in joints[block.0].clone() {
-            let before = other(&frame_analysis.contacts[first], BodyId::Block(*block));
+            let before = frame_analysis.contacts[first].other(BodyId::Block(*block));
             if !matches!(before, BodyId::Block(b) if joints[b.0].len() == 2) {
                 chains.extend(follow_chain(*block, first, &joints, frame_analysis));
             }
@@ -90,16 +86,16 @@ fn follow_chain(start: BlockId, first: usize, joints: &[Vec<usize>], frame_analy
     let mut chain = Chain {
         blocks: Vec::new(),
         joints: vec![first],
-        forces: vec![force_on(&frame_analysis.contacts[first], BodyId::Block(start))],
+        forces: vec![frame_analysis.contacts[first].force_on(BodyId::Block(start))],
         crown_thrust: 0.0,
     };
     let (mut block, mut joint) = (start, first);
     loop {
         chain.blocks.push(block);
         joint = *joints[block.0].iter().find(|j| **j != joint)?;
-        let next = other(&frame_analysis.contacts[joint], BodyId::Block(block));
+        let next = frame_analysis.contacts[joint].other(BodyId::Block(block));
         chain.joints.push(joint);
-        chain.forces.push(force_on(&frame_analysis.contacts[joint], next));
+        chain.forces.push(frame_analysis.contacts[joint].force_on(next));
         match next {
             BodyId::Block(next) if joints[next.0].len() == 2 => block = next,
             _ => return Some(chain),
@@ -108,16 +104,4 @@ fn follow_chain(start: BlockId, first: usize, joints: &[Vec<usize>], frame_analy
             return None;
         }
     }
-}
-
-/// Returns the body of a contact that is not `body`.
-fn other(contact: &Contact, body: BodyId) -> BodyId {
-    let [a, b] = contact.interface.bodies;
-    if a == body { b } else { a }
-}
-
-/// Returns the resultant force of a contact on `body`, which is one of its two bodies, N.
-fn force_on(contact: &Contact, body: BodyId) -> Vector {
-    let force = contact.resultant.force;
-    if contact.resultant.on == body { force } else { -force }
 }

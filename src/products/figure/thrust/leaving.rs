@@ -20,9 +20,7 @@ pub(super) fn with_missing_forces(found: &FrameAnalysis) -> FrameAnalysis {
         add_missing(contact, &found.failures);
     }
     for failure in &found.failures {
-        let (Failure::RobotForce { robot, .. } | Failure::RobotTorque { robot, .. }) = *failure else {
-            continue;
-        };
+        let Some(robot) = failure.robot() else { continue };
         if let Some(held) = frame.robots.iter_mut().find(|held| held.robot == robot) {
             held.force += failure.force();
             held.torque += failure.torque();
@@ -36,7 +34,6 @@ pub(super) fn with_missing_forces(found: &FrameAnalysis) -> FrameAnalysis {
 fn add_missing(contact: &mut Contact, failures: &[Failure]) {
     let interface = &contact.interface;
     let (on, middle, tangent) = (contact.resultant.on, interface.middle(), interface.tangent());
-    let inward = if interface.bodies[0] == on { interface.normal } else { -interface.normal };
     let mut force = contact.resultant.force;
     let mut moment = cross(contact.resultant.at - middle, force);
     let mut any = false;
@@ -47,7 +44,7 @@ fn add_missing(contact: &mut Contact, failures: &[Failure]) {
             any = true;
         }
     }
-    let normal = force.dot(&inward);
+    let normal = force.dot(&interface.normal);
     if any && normal > LEAST_NORMAL_SHARE * force.norm() {
         contact.resultant.at = middle + tangent * (moment / cross(tangent, force));
         contact.resultant.force = force;
@@ -60,12 +57,10 @@ fn acts_at(failure: &Failure, contact: &Contact) -> bool {
         return false;
     };
     let interface = &contact.interface;
-    let [a, b] = bodies;
-    let same = interface.bodies == [a, b] || interface.bodies == [b, a];
     let [from, to] = interface.ends;
     let length = (to - from).norm();
     let along = (failure.at() - from).norm() + (failure.at() - to).norm();
-    same && along <= length * (1.0 + SAME_JOINT_TOL) + f64::MIN_POSITIVE
+    interface.bodies == bodies && along <= length * (1.0 + SAME_JOINT_TOL) + f64::MIN_POSITIVE
 }
 
 /// Returns the end of the joint beyond which its resultant acts; `None` if it acts inside the joint.

@@ -84,26 +84,17 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     table(caption, &forces, Units::new(scene, found), true)
 }
 
-/// Returns the force at an interface, in newtons, that acts on `body`. `body` is one of the two bodies of the
-/// interface.
-fn force_on(contact: &Contact, body: BodyId) -> Vector {
-    if contact.resultant.on == body { contact.resultant.force } else { -contact.resultant.force }
-}
-
 /// Returns the forces of the ground on the blocks, one for each joint between the ground and a block. If there are more
 /// than [`MAX_REACTIONS`] such joints, returns one force for each part of the ground.
 fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Force> {
     let mut joints: Vec<(usize, Force)> = Vec::new();
     for contact in &frame_analysis.contacts {
-        let (ground, block) = match contact.interface.bodies {
-            [BodyId::Ground(ground), BodyId::Block(block)] | [BodyId::Block(block), BodyId::Ground(ground)] => {
-                (ground, block)
+        for acting in contact.acting() {
+            if let Some(BodyId::Ground(ground)) = acting.kind.partner() {
+                let what = support(scene, contact, acting.on);
+                joints.push((ground, Force::new(what, acting.at, acting.force, 0.0)));
             }
-            _ => continue,
-        };
-        let force = force_on(contact, BodyId::Block(block));
-        let what = support(scene, contact, block);
-        joints.push((ground, Force::new(what, contact.resultant.at, force, 0.0)));
+        }
     }
     if joints.len() <= MAX_REACTIONS {
         return joints.into_iter().map(|joint| joint.1).collect();
@@ -149,8 +140,8 @@ fn robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Force> {
 fn missing(scene: &Scene, frame_analysis: &FrameAnalysis, blocks: &[BlockId]) -> Vec<Force> {
     let mut forces = Vec::new();
     for failure in &frame_analysis.failures {
-        let on = blocks.iter().filter_map(|block| failure.on(BodyId::Block(*block)));
-        let (force, torque) = on.fold((Vector::zeros(), 0.0), |(f, t), (g, u)| (f + g, t + u));
+        let on = failure.acting().into_iter().filter(|acting| blocks.contains(&acting.on));
+        let (force, torque) = on.fold((Vector::zeros(), 0.0), |(f, t), on| (f + on.force, t + on.torque));
         if force.norm() > 0.0 || torque != 0.0 {
             let what = match failure.robot() {
                 Some(robot) => {

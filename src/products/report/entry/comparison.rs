@@ -18,7 +18,7 @@ use super::hover::onto_scene;
 use super::row::file_name;
 use super::{Entry, Figure, File, Grid, ReportOptions, Row, Section, SheetPart, bullet, sheet};
 use crate::geometry::Point;
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::pictures::drawing::{Camera, Colour, Drawing, Group, Outline, PagePoint, Path, Stroke};
@@ -324,7 +324,7 @@ impl<'a> SharedForces<'a> {
         });
         let all = shared_forces([was, is]);
         let forces = was.1.iter().chain(is.1);
-        SharedForces { all, noise: noise(forces.map(|c| c.resultant.force.norm())) }
+        SharedForces { all, noise: noise(forces.map(Contact::amount)) }
     }
 
     /// Iterates over the forces that changed by more than 5 % of the larger force. Forces at the level of rounding
@@ -383,10 +383,7 @@ fn change(before: f64, after: f64) -> String {
 fn totals(then: &FrameAnalysis, now: &FrameAnalysis, units: UnitsEntry) -> Grid {
     let unit = units.force();
     let mut grid = Grid::new("In numbers", &["what", "#first", "#second", "#change"]);
-    let largest = |f: &FrameAnalysis| {
-        let forces = f.contacts.iter().map(|c| c.resultant.force.norm());
-        forces.fold(0.0, f64::max)
-    };
+    let largest = FrameAnalysis::largest_at_contacts;
     for (what, a, b) in [
         ("weight of all blocks", then.weight, now.weight),
         ("total force", then.total_force, now.total_force),

@@ -39,10 +39,10 @@ pub(super) struct Ranking<'a> {
 
 impl<'a> Ranking<'a> {
     pub fn new(scene: &'a Scene, frame_analysis: &'a FrameAnalysis) -> Ranking<'a> {
-        let largest = frame_analysis.contacts.iter().map(size).fold(0.0, f64::max);
+        let largest = frame_analysis.largest_at_contacts();
         let mut used: Vec<UsedJoint> = Vec::new();
         for (number, contact) in frame_analysis.contacts.iter().enumerate() {
-            if size(contact) <= FORCE_TOL * largest {
+            if contact.amount() <= FORCE_TOL * largest {
                 continue;
             }
             let off_middle = off_middle(contact, scene.kernel);
@@ -53,7 +53,7 @@ impl<'a> Ranking<'a> {
         // equal, the joint with the larger force comes first.
         let key = |u: &UsedJoint| (1e3 * u.share).round();
         used.sort_by(|a, b| {
-            let force = |u: &UsedJoint| size(&frame_analysis.contacts[u.contact]);
+            let force = |u: &UsedJoint| frame_analysis.contacts[u.contact].amount();
             key(b).total_cmp(&key(a)).then(force(b).total_cmp(&force(a)))
         });
         Ranking { scene, frame_analysis, used, units: Units::new(scene, frame_analysis) }
@@ -62,7 +62,7 @@ impl<'a> Ranking<'a> {
     /// Makes the table of all joints that carry force in the listed balance, with the highest utilisation first.
     pub fn table(&self) -> Grid {
         let contacts = || self.used.iter().map(|u| &self.frame_analysis.contacts[u.contact]);
-        let newtons = self.units.newtons(contacts().flat_map(|c| [normal(c), c.friction_force]));
+        let newtons = self.units.newtons(contacts().flat_map(|c| [c.pressed(), c.friction_force]));
         let positions = self.units.lengths(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
         // Choose the decimals of the offsets from half the lengths of the joints, which are the largest possible
         // offsets.
@@ -93,7 +93,7 @@ impl<'a> Ranking<'a> {
                 name(self.scene, contact).into(),
                 positions.write(at.x).into(),
                 positions.write(at.y).into(),
-                newtons.write(normal(contact)).into(),
+                newtons.write(contact.pressed()).into(),
                 newtons.write(contact.friction_force).into(),
                 off.into(),
                 share(opening),
@@ -110,13 +110,13 @@ impl<'a> Ranking<'a> {
         if self.frame_analysis.contacts.len() > MAX_JOINTS_WITH_TARGETS {
             return Vec::new();
         }
-        let newtons = self.units.newtons(self.frame_analysis.contacts.iter().map(normal));
+        let newtons = self.units.newtons(self.frame_analysis.contacts.iter().map(Contact::pressed));
         let joints = self.used.iter().map(|used| {
             let contact = &self.frame_analysis.contacts[used.contact];
             let mut words = format!(
                 "{}: normal force {}, friction force {}, {} of the available friction used",
                 name(self.scene, contact),
-                newtons.with_unit(normal(contact)),
+                newtons.with_unit(contact.pressed()),
                 newtons.with_unit(contact.friction_force.abs()),
                 percent(contact.friction_used)
             );
@@ -135,16 +135,6 @@ impl<'a> Ranking<'a> {
         });
         joints.chain(robots).chain(failures).collect()
     }
-}
-
-/// Returns the magnitude of the force at a contact, N.
-fn size(contact: &Contact) -> f64 {
-    contact.resultant.force.norm()
-}
-
-/// Returns the normal force at a contact, N.
-pub(super) fn normal(contact: &Contact) -> f64 {
-    contact.normal_forces[0] + contact.normal_forces[1]
 }
 
 /// Names a joint by its two bodies: `v3 / ground`.

@@ -97,13 +97,7 @@ impl Row {
                 _ => bar.reserve,
             }),
             units: scene.units,
-            largest: standing()
-                .map(|f| {
-                    let contacts = f.contacts.iter().map(|c| c.resultant.force.norm());
-                    let robots = f.robots.iter().map(|r| r.force.norm());
-                    contacts.chain(robots).fold(0.0, f64::max)
-                })
-                .reduce(f64::max),
+            largest: standing().map(|f| f.largest_force()).reduce(f64::max),
             fails: text::line(&fails),
             thumbnail: thumbnail(scene, &placed.iter().map(|id| BlockId(*id)).collect::<Vec<_>>()),
         }

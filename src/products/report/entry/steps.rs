@@ -111,10 +111,9 @@ fn charts(frame_analysis: &FrameAnalysis) -> Vec<Chart> {
     if frame_analysis.contacts.len() < MIN_CHART_JOINTS {
         return Vec::new();
     }
-    let sizes = || frame_analysis.contacts.iter().map(|c| c.resultant.force.norm());
-    let (unit, factor) = prefixed(sizes().fold(0.0, f64::max), "N");
-    let forces: Vec<f64> = sizes().map(|size| size * factor).collect();
-    let loaded = frame_analysis.contacts.iter().filter(|c| c.resultant.force.norm() > 0.0);
+    let (unit, factor) = prefixed(frame_analysis.largest_at_contacts(), "N");
+    let forces: Vec<f64> = frame_analysis.contacts.iter().map(|c| c.amount() * factor).collect();
+    let loaded = frame_analysis.contacts.iter().filter(|c| c.amount() > 0.0);
     let used: Vec<f64> = loaded.map(|c| 100.0 * c.friction_used).collect();
     let kinds = [
         ("Number of joints by force", format!("force at a joint, {unit}"), Bars::counted(&forces, None)),

@@ -37,13 +37,11 @@ impl Units {
     /// Chooses the prefix for the largest force, missing force, weight or load: G, M, k, m, µ or no prefix. Above 1000 N
     /// the prefix is k, above 10⁸ N it is M, above 10¹¹ N it is G. Below 0.01 N it is m, below 10⁻⁵ N it is µ.
     pub fn new(scene: &Scene, frame_analysis: &FrameAnalysis) -> Units {
-        let contacts = frame_analysis.contacts.iter().map(|c| c.resultant.force.norm());
-        let robots = frame_analysis.robots.iter().map(|r| r.force.norm());
         let missing = frame_analysis.failures.iter().map(failure::amount);
         let loads = scene.loads.iter().map(|l| l.force.norm());
         let weights = scene.blocks.iter().map(|b| b.weight);
         let given = loads.chain(weights);
-        Units::of(contacts.chain(robots).chain(missing).chain(given), scene.units)
+        Units::of(missing.chain(given).chain([frame_analysis.largest_force()]), scene.units)
     }
 
     fn of(forces: impl IntoIterator<Item = f64>, scene: UnitsEntry) -> Units {
