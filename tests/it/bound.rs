@@ -227,6 +227,16 @@ fn very_many_load_cases() {
     assert_eq!(ran.code, Some(1), "{}", ran.messages);
 }
 
+/// Equal arrows count once for each place of a label, and only some hundred labels search for a place.
+#[test]
+fn very_many_loads_at_one_point() {
+    let load = json!({ "block": "a", "force": [0.001, -1], "at": [0.5, 1] });
+    let file = json!({ "drystone": 1, "blocks": [{ "id": "a", "polygon": square(0.0) }], "loads": vec![load; 10_000],
+        "ground": [{ "polygon": [[-9, 0], [9, 0], [9, -1], [-9, -1]] }] });
+    let ran = run("loads.json", &file.to_string(), "render loads.json -q -o loads.svg");
+    assert_eq!(ran.code, Some(0), "{}", ran.messages);
+}
+
 #[test]
 fn very_many_crossings() {
     // A star whose every side crosses others.

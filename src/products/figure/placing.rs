@@ -4,6 +4,8 @@
 //! anchors, and takes the position of least cost. A position on a mark or on another label is never taken. The cost
 //! counts the distance, covered edges of stones, the part inside stones, near marks, and a leader.
 
+use std::collections::BTreeMap;
+
 use super::design::{Layer, Look, Mark, around, overlaps};
 use super::option::Options;
 use crate::geometry::{Aabb, BoxIndex, Point, convex_hull};
@@ -32,6 +34,10 @@ const HALO: f64 = 0.45;
 const EDGE_COST: f64 = 0.5;
 /// If fewer than this share of the blocks can have a name, none has one.
 const LEAST_NAMED: f64 = 0.7;
+
+/// At most this many labels of a picture search for a position, those of the least rank. Each search looks at all marks
+/// near its anchor, and nobody can read thousands of amounts at one place.
+const MAX_SEARCHED: usize = 500;
 
 /// The font size of a symbol as a multiple of the size of other labels.
 const SYMBOL_SIZE: f64 = 1.35;
@@ -85,8 +91,11 @@ pub(crate) struct PlacedLabels {
     pub rects: Vec<PageRect>,
 }
 
-/// A convex shape that labels must not cover.
-struct Obstacle(Vec<PagePoint>);
+/// A convex shape that labels must not cover, and how many marks have it at this place.
+struct Obstacle {
+    corners: Vec<PagePoint>,
+    count: usize,
+}
 
 /// What is already drawn where labels are placed.
 pub(crate) struct Surroundings {
@@ -101,17 +110,21 @@ pub(crate) struct Surroundings {
 impl Surroundings {
     /// `has_fills` is true if the colours of the stones show a quantity.
     pub fn new(marks: &[Mark], structure: PageRect, has_fills: bool, look: Look) -> Surroundings {
-        let mut obstacles = Vec::new();
+        let mut obstacles: BTreeMap<Vec<[u64; 2]>, Obstacle> = BTreeMap::new();
+        let mut add = |corners: Vec<PagePoint>| {
+            let place = corners.iter().map(|p| [p.x.to_bits(), p.y.to_bits()]).collect();
+            obstacles.entry(place).or_insert(Obstacle { corners, count: 0 }).count += 1;
+        };
         for mark in marks {
             let Some(clear) = mark.avoid else { continue };
             for path in &mark.shapes {
                 let clear = clear + path.stroke.as_ref().map_or(0.0, |s| s.width / 2.0);
                 let points: Vec<PagePoint> = path.outline.points().collect();
                 if path.fill.is_some() {
-                    obstacles.push(Obstacle(grown(hull(points), clear)));
+                    add(grown(hull(points), clear));
                 } else {
                     let lines = lines(&path.outline).into_iter();
-                    obstacles.extend(lines.map(|ends| Obstacle(grown(hull(ends.to_vec()), clear))));
+                    lines.for_each(|ends| add(grown(hull(ends.to_vec()), clear)));
                 }
             }
         }
@@ -124,7 +137,7 @@ impl Surroundings {
         let edges: Vec<[PagePoint; 2]> =
             rings.iter().flat_map(|ring| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]])).collect();
         Surroundings {
-            obstacles: BoxIndex::new(obstacles, |o| bounds(&o.0)),
+            obstacles: BoxIndex::new(obstacles.into_values().collect(), |o: &Obstacle| bounds(&o.corners)),
             edges: BoxIndex::new(edges, |edge| bounds(edge)),
             stones: BoxIndex::new(rings, |ring| bounds(ring)),
             structure,
@@ -141,12 +154,13 @@ impl Surroundings {
     /// Returns the number of obstacles that a rectangle covers.
     fn covered(&self, rect: PageRect) -> usize {
         let corners = corners(rect);
-        self.obstacles.intersecting(bounds(&corners)).filter(|o| convex_meet(&o.0, &corners)).count()
+        let met = self.obstacles.intersecting(bounds(&corners)).filter(|o| convex_meet(&o.corners, &corners));
+        met.map(|obstacle| obstacle.count).sum()
     }
 
     fn is_clear(&self, rect: PageRect) -> bool {
         let corners = corners(rect);
-        !self.obstacles.intersecting(bounds(&corners)).any(|o| convex_meet(&o.0, &corners))
+        !self.obstacles.intersecting(bounds(&corners)).any(|o| convex_meet(&o.corners, &corners))
     }
 
     /// Returns the number of obstacles on a leader. An obstacle at its anchor only counts if the leader runs along it
@@ -154,8 +168,9 @@ impl Surroundings {
     fn crossed(&self, from: PagePoint, anchor: PagePoint, near: f64, along: f64) -> usize {
         let line = [from, anchor];
         let at = corners(grown_rect(PageRect { at: anchor, width: 0.0, height: 0.0 }, near));
-        let crossed = self.obstacles.intersecting(bounds(&line)).filter(|o| convex_meet(&o.0, &line));
-        crossed.filter(|o| !convex_meet(&o.0, &at) || chord(&o.0, line) > along).count()
+        let crossed = self.obstacles.intersecting(bounds(&line)).filter(|o| convex_meet(&o.corners, &line));
+        let crossed = crossed.filter(|o| !convex_meet(&o.corners, &at) || chord(&o.corners, line) > along);
+        crossed.map(|obstacle| obstacle.count).sum()
     }
 
     /// Returns the length of the edges of stones in a rectangle, pixels.
@@ -194,7 +209,7 @@ pub(crate) fn labels(mut labels: Vec<Label>, drawn: &Surroundings, look: Look, o
         labels.into_iter().partition(|label| label.inside.is_some() && !label.is_mentioned);
     let mut placed = PlacedLabels::default();
     let size = look.text * options.theme.sizes.amount;
-    for mut label in others {
+    for mut label in others.into_iter().take(MAX_SEARCHED) {
         let (wide, high) = label.size(size);
         if label.inside.is_some() {
             if let Some(rect) = name_place(&label, (wide, 0.74 * size), drawn, &placed.rects, look) {
