@@ -52,7 +52,7 @@
 //!   built ([Gilbert06](doc::references)). The forces may also be due to wedging: blocks that press against each other
 //!   although no load requires it;
 //! - the blocks are strong enough. They are rigid and never break, and their edges bear any pressure;
-//! - the structure survives a shock. The model has no dynamics: no impact, no earthquake, no settling ground.
+//! - the structure survives a shock. The model has no dynamics: no impact and no earthquake.
 //!
 //! There is no cohesion. Sticking forces only show which force is missing in a structure that falls.
 //!

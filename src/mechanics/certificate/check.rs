@@ -101,8 +101,10 @@ impl Certificate {
             still: limit.still.clone(),
             ..limit.change.of(frame)
         };
-        let mut faults =
-            Certificate { frames: vec![changed.clone()], limits: Vec::new(), ..self.clone() }.form_errors();
+        // Copied without its other frames and limits: a certificate may have thousands of both.
+        let (scene_sha256, bodies) = (String::new(), self.bodies.clone());
+        let alone = Certificate { scene_sha256, bodies, frames: vec![changed.clone()], limits: Vec::new(), ..*self };
+        let mut faults = alone.form_errors();
         if limit.change.grip_limits.as_ref().is_some_and(|limits| limits.len() != frame.grips.len()) {
             faults.push("the limits are not those of the grips".to_owned());
         }
