@@ -79,18 +79,23 @@ fn files_of_more_than_64_mb_are_refused_unread() {
     for name in ["big.json", "big.toml", "big.svg", "big.dxf", "big.md", "in/big.json", "kept/s.txt", "set/s.json"] {
         grow(name, size);
     }
-    refused("big.json", size, "check big.json");
-    refused("big.toml", size, "check big.toml");
-    refused("big.json", size, "check in");
-    refused("big.json", size, "batch big.json >&2");
-    refused("big.json", size, "plan big.json");
-    refused("big.svg", size, "import big.svg");
-    refused("big.dxf", size, "import big.dxf");
-    refused("big.json", size, "render good.json -o good.svg --style big.json");
-    refused("big.toml", size, "render good.json -o good.svg --style big.toml");
-    refused("big.md", size, "markdown big.md -o out.md");
-    refused("big.json", size, "markdown book.md -o out.md");
-    refused("s.json", size, "snapshot set");
+    let commands = [
+        ("big.json", "check big.json"),
+        ("big.toml", "check big.toml"),
+        ("big.json", "check in"),
+        ("big.json", "batch big.json >&2"),
+        ("big.json", "plan big.json"),
+        ("big.svg", "import big.svg"),
+        ("big.dxf", "import big.dxf"),
+        ("big.json", "render good.json -o good.svg --style big.json"),
+        ("big.toml", "render good.json -o good.svg --style big.toml"),
+        ("big.md", "markdown big.md -o out.md"),
+        ("big.json", "markdown book.md -o out.md"),
+        ("s.json", "snapshot set"),
+    ];
+    for (name, arguments) in commands {
+        refused(name, size, arguments);
+    }
     grow("kept/drystone-snapshots.toml", size);
     refused("drystone-snapshots.toml", size, "snapshot kept");
     fs::remove_file(at("kept/drystone-snapshots.toml")).expect("there");

@@ -23,11 +23,11 @@ pub enum ForceKind {
     Robot(RobotId),
     /// A robot's torque. In the style of the thesis, two vertical arrows show it.
     RobotTorque(RobotId),
-    /// A missing pull from this body: adhesion that the structure would need.
+    /// A missing pull from this body: the structure would stand only if the joint could transfer this tension.
     MissingPull(BodyId),
     /// Missing friction from this body.
     MissingFriction(BodyId),
-    /// A missing force of a robot: the part of the needed force that exceeds the robot's limits.
+    /// The part of the needed force of a robot that exceeds the robot's limits.
     MissingRobotForce(RobotId),
     /// A torque beyond a robot's limit. In the style of the thesis, two vertical arrows show it.
     MissingTorque(RobotId),
@@ -64,7 +64,7 @@ impl ForceKind {
     }
 
     /// True for a weight or a load.
-    pub(crate) fn is_given(self) -> bool {
+    pub(crate) fn is_applied(self) -> bool {
         matches!(self, ForceKind::Weight | ForceKind::Load)
     }
 
@@ -95,8 +95,8 @@ pub(crate) struct ActingForce {
     pub torque: f64,
 }
 
-/// Returns all forces on the blocks of a frame: weights and loads block by block in placing order, then the forces
-/// `of_contact` of each contact, the forces of robots, and missing forces.
+/// Returns all forces on the blocks of a frame. The order is: the weight and the loads of each block, in placing order;
+/// the forces of each contact, as `of_contact` returns them; the forces of robots; missing forces.
 pub(crate) fn acting_forces(
     scene: &Scene,
     frame: &Frame,
@@ -154,7 +154,7 @@ impl Contact {
     }
 
     /// Returns the sum of the normal forces, N.
-    pub(crate) fn pressed(&self) -> f64 {
+    pub(crate) fn normal_force(&self) -> f64 {
         self.normal_forces.iter().sum()
     }
 
@@ -174,7 +174,7 @@ impl Contact {
         let normal = self.interface.normal;
         let part = |kind, force| between(self.interface.bodies, kind, self.resultant.at, force);
         let friction = part(ForceKind::Friction, quarter_turn(normal) * self.friction_force);
-        [part(ForceKind::Normal, normal * self.pressed()), friction].concat()
+        [part(ForceKind::Normal, normal * self.normal_force()), friction].concat()
     }
 }
 

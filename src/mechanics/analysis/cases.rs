@@ -179,8 +179,10 @@ fn reserve(found: &FrameAnalysis) -> [f64; 2] {
 
 /// Returns the forces at each interface, as ranges without length. All cases have the same interfaces.
 fn envelope(case: &FrameAnalysis) -> Vec<Envelope> {
-    let of_contact =
-        |contact: &super::Contact| Envelope { normal: [contact.pressed(); 2], friction: [contact.friction_force; 2] };
+    let of_contact = |contact: &super::Contact| Envelope {
+        normal: [contact.normal_force(); 2],
+        friction: [contact.friction_force; 2],
+    };
     case.contacts.iter().map(of_contact).collect()
 }
 

@@ -140,11 +140,8 @@ impl Failure {
     /// Returns the missing force (N) and torque (N·m) on a body. `None` if this failure does not concern the body.
     pub fn on(&self, body: BodyId) -> Option<(Vector, f64)> {
         let (first, second) = self.bodies();
-        let sign = match () {
-            () if first == body => 1.0,
-            () if second == Some(body) => -1.0,
-            () => return None,
-        };
+        let on_second = (second == Some(body)).then_some(-1.0);
+        let sign = if first == body { 1.0 } else { on_second? };
         Some((self.force() * sign, self.torque()))
     }
 

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::ByteSize;
 use crate::read::file;
 
-/// The longest record in bytes. The limit keeps a line that never ends from filling the memory.
+/// The longest record in bytes. Without a limit, a line that never ends would fill the memory.
 const MAX_RECORD_BYTES: usize = file::MAX_BYTES as usize;
 
 /// The text of one scene, not parsed yet.

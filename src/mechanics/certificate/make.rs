@@ -80,7 +80,7 @@ impl Certificate {
             limits: Vec::new(),
         };
         analysis.change_each(|number, scene, found| {
-            // A frame has the weights and the loads of its worst load case.
+            // With load cases, each frame is proved for the weights and the loads of its governing case.
             if !Arc::ptr_eq(scene, &latest) {
                 (certificate.bodies, latest) = (bodies(scene), scene.clone());
             }

@@ -28,9 +28,9 @@ pub(crate) struct Bearing {
 /// Returns the normal force, the eccentricity and the used friction of each contact, in the order of the contacts. The
 /// entry is `None` for a contact whose normal force is 0 or [numerical noise](noise).
 pub(crate) fn bearings(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Option<Bearing>> {
-    let largest = frame_analysis.contacts.iter().map(Contact::pressed).fold(0.0, f64::max);
+    let largest = frame_analysis.contacts.iter().map(Contact::normal_force).fold(0.0, f64::max);
     let bearing = |contact: &Contact| {
-        let pressed = contact.pressed();
+        let pressed = contact.normal_force();
         let [one, other] = contact.normal_forces;
         let point = contact.interface.kind == ContactKind::Corner || scene.kernel >= 1.0;
         let weights = contact.interface.bodies.iter().map(|body| match body {

@@ -26,7 +26,7 @@ pub(crate) fn word(kind: ForceKind) -> &'static str {
 
 /// Names the body or the robot that exerts a force: `block a`, `the ground`, `robot r`. A weight and a load have no
 /// name.
-pub(crate) fn exerter(scene: &Scene, kind: ForceKind) -> Option<String> {
+pub(crate) fn exerted_by(scene: &Scene, kind: ForceKind) -> Option<String> {
     let robot = || Some(format!("robot {}", scene.robots[kind.robot()?.0].id));
     kind.partner().map(|body| named(scene, body)).or_else(robot)
 }
@@ -46,7 +46,7 @@ pub(crate) fn arrow(scene: &Scene, unit: f64, arrow: &ForceArrow) -> String {
 /// Names a force, such as `Force on block a from block b`.
 pub(crate) fn described(scene: &Scene, kind: ForceKind, on: BodyId) -> String {
     let preposition = if kind == ForceKind::Weight { "of" } else { "on" };
-    let from = exerter(scene, kind).map_or(String::new(), |name| format!(" from {name}"));
+    let from = exerted_by(scene, kind).map_or(String::new(), |name| format!(" from {name}"));
     format!("{} {preposition} {}{from}", word(kind), named(scene, on))
 }
 

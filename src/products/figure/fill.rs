@@ -204,7 +204,7 @@ fn largest(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis, amount:
 /// Returns, for each placed block in placing order, the larger of its weight and the largest normal force on its
 /// interfaces, N.
 fn amplitudes(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
-    let normals = largest(scene, frame, frame_analysis, Contact::pressed);
+    let normals = largest(scene, frame, frame_analysis, Contact::normal_force);
     let weights = frame.placed.iter().map(|b| scene.blocks[b.0].weight);
     normals.into_iter().zip(weights).map(|(n, w)| n.max(w)).collect()
 }
@@ -214,7 +214,7 @@ fn amplitudes(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> V
 fn stresses(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, frame_analysis, |contact| {
         let area = contact.interface.length() * scene.thickness;
-        if area > 0.0 { contact.pressed() / area } else { 0.0 }
+        if area > 0.0 { contact.normal_force() / area } else { 0.0 }
     })
 }
 
@@ -222,6 +222,6 @@ fn stresses(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec
 /// without normal forces.
 fn friction(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     largest(scene, frame, frame_analysis, |contact| {
-        if contact.pressed() > 0.0 { contact.friction_used.clamp(0.0, 1.0) } else { 0.0 }
+        if contact.normal_force() > 0.0 { contact.friction_used.clamp(0.0, 1.0) } else { 0.0 }
     })
 }

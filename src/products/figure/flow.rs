@@ -16,7 +16,7 @@ use strand::{Strand, StrandKind, strands};
 
 use super::bearing::bearings;
 use super::canvas::Canvas;
-use super::description::exerter;
+use super::description::exerted_by;
 use super::design::{Key, Layer, Look, Mark, unit};
 use super::panel::{About, Figure, View};
 use super::{joint_forces, load, stage};
@@ -193,7 +193,7 @@ fn title(canvas: &Canvas<'_>, strand: &Strand) -> String {
     let name = |kind: ForceKind| match kind {
         ForceKind::Load => "a load".to_owned(),
         kind if kind.is_failure() => "a missing force".to_owned(),
-        kind => exerter(scene, kind).unwrap_or("its weight".to_owned()),
+        kind => exerted_by(scene, kind).unwrap_or("its weight".to_owned()),
     };
     let [from, to] = strand.amounts.map(|newtons| quantity(newtons, scene.units.force()));
     let block = &scene.blocks[strand.on.0].id;

@@ -35,9 +35,10 @@ const EDGE_COST: f64 = 0.5;
 /// If fewer than this share of the blocks can have a name, none has one.
 const LEAST_NAMED: f64 = 0.7;
 
-/// At most this many labels of a picture search for a position, those of the least rank. Each search looks at all marks
-/// near its anchor, and nobody can read thousands of amounts at one place.
-const MAX_SEARCHED: usize = 500;
+/// At most this many labels of a picture are placed besides names in blocks, those of the least rank. To place a label,
+/// all marks near its anchor are tested, so the time would grow with the square of their number. Nobody can read that
+/// many labels.
+const MAX_LABELS: usize = 500;
 
 /// The font size of a symbol as a multiple of the size of other labels.
 const SYMBOL_SIZE: f64 = 1.35;
@@ -209,7 +210,7 @@ pub(crate) fn labels(mut labels: Vec<Label>, drawn: &Surroundings, look: Look, o
         labels.into_iter().partition(|label| label.inside.is_some() && !label.is_mentioned);
     let mut placed = PlacedLabels::default();
     let size = look.text * options.theme.sizes.amount;
-    for mut label in others.into_iter().take(MAX_SEARCHED) {
+    for mut label in others.into_iter().take(MAX_LABELS) {
         let (wide, high) = label.size(size);
         if label.inside.is_some() {
             if let Some(rect) = name_place(&label, (wide, 0.74 * size), drawn, &placed.rects, look) {

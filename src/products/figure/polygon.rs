@@ -75,7 +75,7 @@ impl Figure for ForcePolygon {
 
     fn scale(&self, view: &View<'_>, look: Look) -> f64 {
         let frames = 0..view.analysis.frames.len();
-        let ground = frames.flat_map(|frame| sides(view.analysis, frame)).filter(|side| !side.kind.is_given());
+        let ground = frames.flat_map(|frame| sides(view.analysis, frame)).filter(|side| !side.kind.is_applied());
         let largest = ground.map(|side| side.force.norm()).fold(0.0, f64::max);
         if largest > 0.0 { look.mm(8.0) / largest } else { 0.0 }
     }
@@ -184,7 +184,7 @@ impl Chain {
         let corners = corners(&sides);
         let own = Bounds::from_points(corners.iter().copied()).filter(|_| corners.len() > 2)?;
         let size = own.width().max(own.height());
-        let acting = sides.iter().position(|side| !side.kind.is_given()).unwrap_or(sides.len());
+        let acting = sides.iter().position(|side| !side.kind.is_applied()).unwrap_or(sides.len());
         let is_covered = covers(&corners[..=acting], &corners[acting..], size);
         let aside = if is_covered { REACTION_OFFSET * size } else { 0.0 };
         let (share, least) = POLYGON_GAP;
@@ -288,7 +288,7 @@ fn names(canvas: &Canvas<'_>, sides: &[ActingForce]) -> Vec<Option<String>> {
 fn at_structure(canvas: &mut Canvas<'_>, sides: &[ActingForce]) {
     for (side, name) in sides.iter().zip(names(canvas, sides)) {
         let norm = side.force.norm();
-        if side.kind.is_given() {
+        if side.kind.is_applied() {
             continue;
         }
         let u = direction(side.force);

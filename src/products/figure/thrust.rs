@@ -18,7 +18,7 @@ use leaving::{left_at, slips, with_missing_forces};
 
 use super::bearing::bearings;
 use super::canvas::Canvas;
-use super::description::exerter;
+use super::description::exerted_by;
 use super::design::{Key, Layer, Mark, unit};
 use super::funicular::{ThrustSegment, segments};
 use super::option::Options;
@@ -300,7 +300,7 @@ fn title(canvas: &Canvas<'_>, segment: &ThrustSegment) -> String {
     let on = &scene.blocks[segment.on.0].id;
     let by = match segment.kind {
         ForceKind::Load => "a load".to_owned(),
-        kind => exerter(scene, kind).unwrap_or("a joint, combined with loads".to_owned()),
+        kind => exerted_by(scene, kind).unwrap_or("a joint, combined with loads".to_owned()),
     };
     let force = force(segment.force, scene.units);
     if segment.through {

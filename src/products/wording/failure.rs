@@ -12,7 +12,7 @@ use crate::text::first_of;
 const MAX_LISTED_BLOCKS: usize = 6;
 
 /// Returns the magnitude of the force (N) or torque (N·m) that is missing at a failure.
-pub fn amount(failure: &Failure) -> f64 {
+pub fn magnitude(failure: &Failure) -> f64 {
     failure.force().norm() + failure.torque().abs()
 }
 
@@ -20,7 +20,7 @@ pub fn amount(failure: &Failure) -> f64 {
 /// their order.
 pub fn by_amount(frame_analysis: &FrameAnalysis) -> Vec<&Failure> {
     let mut failures: Vec<&Failure> = frame_analysis.failures.iter().collect();
-    failures.sort_by(|a, b| amount(b).total_cmp(&amount(a)));
+    failures.sort_by(|a, b| magnitude(b).total_cmp(&magnitude(a)));
     failures
 }
 
@@ -52,7 +52,7 @@ pub fn pair(scene: &Scene, bodies: [BodyId; 2]) -> String {
 /// Writes the magnitude of the missing force or torque with its unit.
 fn stated(scene: &Scene, failure: &Failure) -> String {
     let is_torque = matches!(failure, Failure::RobotTorque { .. });
-    quantity(amount(failure), if is_torque { scene.units.torque() } else { scene.units.force() })
+    quantity(magnitude(failure), if is_torque { scene.units.torque() } else { scene.units.force() })
 }
 
 /// Describes a failure, its position and the missing force, as a sentence without a full stop.

@@ -122,7 +122,7 @@ fn within_joint(contact: &Contact, width: f64) -> Point {
 /// true lines exists, returns `None`.
 fn true_lines(scene: &Scene, on: BlockId, forces: &[ActingForce]) -> Option<Vec<Strand>> {
     let presses = |f: &&ActingForce| matches!(f.kind, ForceKind::Contact(_) | ForceKind::Robot(_));
-    let given = |f: &&ActingForce| f.kind.is_given();
+    let given = |f: &&ActingForce| f.kind.is_applied();
     let turned = |load: &crate::mechanics::scene::Load| load.block == on && load.torque != 0.0;
     let pressing: Vec<&ActingForce> = forces.iter().filter(presses).collect();
     let [one, other] = pressing[..] else {

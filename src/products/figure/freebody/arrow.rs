@@ -208,7 +208,7 @@ impl<'c, 'a> Arrows<'c, 'a> {
             }
             let missing = force.kind.is_failure();
             let norm = force.force.norm();
-            let is_given = missing || force.kind.is_given();
+            let is_given = missing || force.kind.is_applied();
             let straight = Arrow {
                 symbol: Some(force.symbol.clone()),
                 width: if missing { MISSING_WIDTH } else { 1.0 },

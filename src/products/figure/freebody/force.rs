@@ -1,6 +1,6 @@
 //! [`Force`]: a force on a block with its name in a free-body diagram. [`forces`] collects all forces on the block.
 
-use super::super::description::{exerter, word};
+use super::super::description::{exerted_by, word};
 use super::super::option::{Corners, Options};
 use super::surroundings::{Corner, corners, distinct, inward};
 use crate::geometry::{Point, Vector, cross, quarter_turn};
@@ -150,7 +150,7 @@ impl ForceSource<'_> {
         let from = match kind.partner() {
             Some(BodyId::Ground(_)) => "ground".to_owned(),
             Some(body) => scene.name(body).to_owned(),
-            None => exerter(scene, kind).unwrap_or(word(kind).to_lowercase()),
+            None => exerted_by(scene, kind).unwrap_or(word(kind).to_lowercase()),
         };
         let from = if kind.is_failure() { format!("missing, {from}") } else { from };
         let colour = match kind {

@@ -70,7 +70,7 @@ pub(super) fn corners(contact: &Contact, block: BlockId) -> [Corner; 2] {
     // Friction is positive along (−n_y, n_x) on the first body. On the second body, the tangent and the force both
     // change their sign, so the number stays the same.
     let friction = contact.friction_force;
-    let pressed = contact.pressed();
+    let pressed = contact.normal_force();
     let share = |k: usize| {
         if pressed > 0.0 { contact.normal_forces[k] / pressed } else { 0.5 }
     };

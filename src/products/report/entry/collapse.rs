@@ -114,7 +114,7 @@ impl Collapse {
         joints.truncate(MAX_JOINTS);
         let contacts = || joints.iter().map(|(joint, _)| &found.contacts[joint.contact]);
         let units = Units::new(scene, found);
-        let newtons = units.newtons(contacts().flat_map(|c| [c.pressed(), c.friction_force]));
+        let newtons = units.newtons(contacts().flat_map(|c| [c.normal_force(), c.friction_force]));
         let places = units.lengths(joints.iter().flat_map(|(joint, _)| [joint.at.x, joint.at.y]));
         let point = |joint: &Joint| joint.hinge.unwrap_or(joint.at);
         let mut heads = vec!["joint".to_owned(), "in the collapse".to_owned(), places.head("x"), places.head("y")];
@@ -136,8 +136,8 @@ impl Collapse {
                 places.write(point(joint).y).into(),
             ];
             if stands {
-                let room = if contact.pressed() == 0.0 { "no force".to_owned() } else { room };
-                let forces = [contact.pressed(), contact.friction_force].map(|force| newtons.write(force).into());
+                let room = if contact.normal_force() == 0.0 { "no force".to_owned() } else { room };
+                let forces = [contact.normal_force(), contact.friction_force].map(|force| newtons.write(force).into());
                 cells.extend(forces);
                 cells.push(room.into());
             }

@@ -62,7 +62,7 @@ impl<'a> Ranking<'a> {
     /// Makes the table of all joints that carry force in the listed balance, with the highest utilisation first.
     pub fn table(&self) -> Grid {
         let contacts = || self.used.iter().map(|u| &self.frame_analysis.contacts[u.contact]);
-        let newtons = self.units.newtons(contacts().flat_map(|c| [c.pressed(), c.friction_force]));
+        let newtons = self.units.newtons(contacts().flat_map(|c| [c.normal_force(), c.friction_force]));
         let positions = self.units.lengths(contacts().flat_map(|c| [c.resultant.at.x, c.resultant.at.y]));
         // Choose the decimals of the offsets from half the lengths of the joints, which are the largest possible
         // offsets.
@@ -93,7 +93,7 @@ impl<'a> Ranking<'a> {
                 name(self.scene, contact).into(),
                 positions.write(at.x).into(),
                 positions.write(at.y).into(),
-                newtons.write(contact.pressed()).into(),
+                newtons.write(contact.normal_force()).into(),
                 newtons.write(contact.friction_force).into(),
                 off.into(),
                 share(opening),
@@ -110,13 +110,13 @@ impl<'a> Ranking<'a> {
         if self.frame_analysis.contacts.len() > MAX_JOINTS_WITH_TARGETS {
             return Vec::new();
         }
-        let newtons = self.units.newtons(self.frame_analysis.contacts.iter().map(Contact::pressed));
+        let newtons = self.units.newtons(self.frame_analysis.contacts.iter().map(Contact::normal_force));
         let joints = self.used.iter().map(|used| {
             let contact = &self.frame_analysis.contacts[used.contact];
             let mut words = format!(
                 "{}: normal force {}, friction force {}, {} of the available friction used",
                 name(self.scene, contact),
-                newtons.with_unit(contact.pressed()),
+                newtons.with_unit(contact.normal_force()),
                 newtons.with_unit(contact.friction_force.abs()),
                 percent(contact.friction_used)
             );

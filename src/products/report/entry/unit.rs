@@ -37,7 +37,7 @@ impl Units {
     /// Chooses the prefix for the largest force, missing force, weight or load: G, M, k, m, µ or no prefix. Above 1000 N
     /// the prefix is k, above 10⁸ N it is M, above 10¹¹ N it is G. Below 0.01 N it is m, below 10⁻⁵ N it is µ.
     pub fn new(scene: &Scene, frame_analysis: &FrameAnalysis) -> Units {
-        let missing = frame_analysis.failures.iter().map(failure::amount);
+        let missing = frame_analysis.failures.iter().map(failure::magnitude);
         let loads = scene.loads.iter().map(|l| l.force.norm());
         let weights = scene.blocks.iter().map(|b| b.weight);
         let given = loads.chain(weights);
