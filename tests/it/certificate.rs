@@ -131,14 +131,15 @@ const ROBOT: &str = r#"{ "drystone": 1, "friction": 0.6,
     "loads": [{ "block": "b", "force": [8, -4], "at": [3.2, 2] }] }"#;
 
 /// Scenes without friction, with contacts of one point, and with parts that cannot move. `DRYSTONE_CERTIFICATES` sets their
-/// number.
+/// number, `DRYSTONE_ORACLE_FIRST` the number of the first scene.
 #[test]
 fn random_hard_scenes_are_exact_for_both_checkers() {
-    let (mut texts, mut rust) = (Vec::new(), Vec::new());
-    let (mut frames, mut exact) = (0, 0);
-    let mut inexact = Vec::new();
-    for number in 0..number_of("DRYSTONE_CERTIFICATES", 90) {
-        for file in [random::scene(number).1, small::scene(number)] {
+    let (mut frames, mut inexact, mut steps) = (0, Vec::new(), 0);
+    let first = number_of("DRYSTONE_ORACLE_FIRST", 0);
+    let numbers: Vec<u64> = (first..first + number_of("DRYSTONE_CERTIFICATES", 90)).collect();
+    for numbers in numbers.chunks(500) {
+        let (mut texts, mut rust) = (Vec::new(), Vec::new());
+        for file in numbers.iter().flat_map(|number| [random::scene(*number).1, small::scene(*number)]) {
             let Ok(scene) = Scene::from_json(&file.to_string()) else { continue };
             let certificate = certificate(&scene, &Options::default());
             let checked = certificate.check().expect("a structure");
@@ -147,25 +148,23 @@ fn random_hard_scenes_are_exact_for_both_checkers() {
                     continue;
                 }
                 frames += 1;
-                exact += usize::from(frame.is_exact());
-                if !frame.is_exact() {
-                    inexact.push((number, frame.verdict.clone(), frame.faults.clone()));
-                }
                 if form.forces.is_none() && form.motion.is_none() {
-                    inexact.push((number, "no proof".to_owned(), Vec::new()));
+                    inexact.push((file.to_string(), "no proof".to_owned(), Vec::new()));
+                } else if !frame.is_exact() {
+                    inexact.push((file.to_string(), frame.verdict.clone(), frame.faults.clone()));
                 }
             }
             texts.push(certificate.to_json());
             rust.push(proved(&checked));
         }
+        steps += texts.iter().filter(|text| text.contains("\"still\":")).count();
+        let Some(pages) = by_python(&texts) else { continue };
+        for ((text, rust), page) in texts.iter().zip(&rust).zip(&pages) {
+            assert_eq!(*rust, proved_by_python(page), "{text}\n{page:#?}");
+        }
     }
-    assert!(exact * 100 >= frames * 97, "{exact} of {frames} frames are exact: {inexact:#?}");
-    let steps = texts.iter().filter(|text| text.contains("\"still\":")).count();
+    assert!(inexact.len() * 100 <= frames * 3, "{} of {frames} frames are not exact: {inexact:#?}", inexact.len());
     assert!(steps > 0, "no motion needs contacts that stay closed");
-    let Some(pages) = by_python(&texts) else { return };
-    for ((text, rust), page) in texts.iter().zip(&rust).zip(&pages) {
-        assert_eq!(*rust, proved_by_python(page), "{text}\n{page:#?}");
-    }
 }
 
 /// A push of 4 kN that is fixed, and one of 1 kN that the load factor multiplies, on a block of 88 kN.
