@@ -61,7 +61,8 @@ def corrected(frame, parts, given, residual):
             residual[body] = plus(residual[body], parts[part][body], amount)
     for part, amount in given:
         change(part, amount)
-    for own, by in [step for step in frame["forces"]["order"] if any(any(residual[b]) for b in step[0])]:
+    # A step changes the residuals of later ones, so each is skipped only when its turn comes.
+    for own, by in (step for step in frame["forces"]["order"] if any(any(residual[b]) for b in step[0])):
         rows = [[parts[k].get(b, REST)[i] for k in by] + [-residual[b][i]] for b in own for i in range(3)]
         for k, amount in zip(by, solve(rows, len(by))):
             change(k, amount)

@@ -167,6 +167,26 @@ fn random_hard_scenes_are_exact_for_both_checkers() {
     assert!(steps > 0, "no motion needs contacts that stay closed");
 }
 
+/// The forces on the lower of two blocks balance it as given, but not those on the upper one. The correction of the upper
+/// block changes those on the lower one, which needs its own step then.
+#[test]
+fn a_block_that_an_earlier_step_unbalances_is_corrected() {
+    let text = r#"{ "drystone": 1, "friction": 1, "ground": [{ "polygon": [[-9, 0], [9, 0], [9, -1], [-9, -1]] }],
+        "blocks": [{ "id": "lower", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": 8 },
+                   { "id": "upper", "polygon": [[0, 1], [1, 1], [1, 2], [0, 2]], "weight": 4 }] }"#;
+    let mut certificate = certificate(&Scene::from_json(text).expect("a scene"), &Options::default());
+    let frame = &mut certificate.frames[0];
+    let forces = frame.forces.as_mut().expect("it stands");
+    assert_eq!(forces.order.iter().map(|(bodies, _)| bodies[0]).collect::<Vec<_>>(), [2, 1]);
+    for (contact, force) in frame.contacts.iter().zip(&mut forces.contacts) {
+        let borne = if contact.bodies.contains(&0) { 6.0 } else { 2.0 };
+        *force = [borne + 0.125, borne, 0.0];
+    }
+    assert_eq!(proved(&certificate.check().expect("a structure")), [true]);
+    let Some(pages) = by_python(&[certificate.to_json()]) else { return };
+    assert_eq!(proved_by_python(&pages[0]), [true], "{pages:#?}");
+}
+
 /// A push of 4 kN that is fixed, and one of 1 kN that the load factor multiplies, on a block of 88 kN.
 #[test]
 fn certificates_keep_fixed_loads_at_every_load_factor() {
