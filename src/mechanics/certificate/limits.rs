@@ -10,7 +10,7 @@ use crate::mechanics::statics::assembly::{Assembly, load_about};
 
 /// How far from an end the two sides are proved, relative to its size: the first distance at which both the numbers of
 /// the margin and the exact correction leave room.
-pub(super) const DISTANCES: [f64; 3] = [1e-8, 1e-6, 1e-4];
+pub(super) const DISTANCES: [f64; 2] = [1e-6, 1e-4];
 
 /// The size of an end at 0, as a share of 1 or of the heaviest load.
 const LEAST_SIZE: f64 = 1e-3;

@@ -120,8 +120,7 @@ impl Certificate {
         let with_slack = || self.with_forces(bare, assembly, slack()?, Some(f64::NEG_INFINITY));
         let with_listed = || self.with_forces(bare, assembly, listed.as_ref()?, Some(f64::NEG_INFINITY));
         let slack_at_once = || self.with_forces(bare, assembly, slack()?, None);
-        let listed_at_once = || self.with_forces(bare, assembly, listed.as_ref()?, None);
-        self.best(bare, &[&with_room, &with_inner, &with_slack, &with_listed, &slack_at_once, &listed_at_once])
+        self.best(bare, &[&with_room, &with_inner, &with_slack, &with_listed, &slack_at_once])
     }
 
     /// Adds a motion to a frame that falls: the given one, or else one that opens more contacts and keeps those exactly
