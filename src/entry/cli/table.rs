@@ -301,7 +301,7 @@ fn is_left_out(frame: &FrameAnalysis) -> bool {
 
 /// Returns the remarks below the row of a frame, with the range of its thrust. Each remark is printed on a separate line.
 fn remarks(analysis: &Analysis, number: usize, detail: &Detail, range: Option<&str>) -> Vec<String> {
-    let (scene, frame) = (analysis.scene_of(number), &analysis.frames[number]);
+    let (scene, frame) = analysis.at(number);
     let state = &scene.frames[number];
     let mut remarks = Vec::new();
     if let Some(timing) = detail.full {

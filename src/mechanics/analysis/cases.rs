@@ -149,6 +149,11 @@ impl Analysis {
         self.cases.as_ref().and_then(|cases| cases.of_frames.get(frame)).unwrap_or(&self.scene)
     }
 
+    /// Returns the results of a frame, with the scene of [`Analysis::scene_of`].
+    pub(crate) fn at(&self, frame: usize) -> (&Arc<Scene>, &FrameAnalysis) {
+        (self.scene_of(frame), &self.frames[frame])
+    }
+
     /// Returns the scene as it was given to the analysis, with its load cases.
     #[cfg(any(feature = "python", feature = "wasm"))]
     pub(crate) fn given(&self) -> &Arc<Scene> {

@@ -305,6 +305,11 @@ impl Scene {
         a.friction.min(b.friction)
     }
 
+    /// Returns the box around some blocks, metres; `None` if there are none.
+    pub(crate) fn bounds<'i>(&self, blocks: impl IntoIterator<Item = &'i BlockId>) -> Option<Bounds> {
+        blocks.into_iter().map(|id| self.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union)
+    }
+
     /// Returns the direction of gravity as a unit vector; zero if there is no gravity.
     pub fn down(&self) -> Vector {
         let g = self.gravity.norm();

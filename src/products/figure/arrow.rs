@@ -8,10 +8,11 @@
 //! red. The length of an arrow is proportional to its force; [`Head`] states whether the head counts towards this length.
 
 use super::design::{unit, zoomed_view};
+use super::fill;
 use super::option::{ForceStyle, Normalisation, Options};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::{ActingForce, Analysis, Contact, ForceKind, FrameAnalysis, acting_forces};
-use crate::mechanics::scene::{BlockId, BodyId, RobotId, Scene};
+use crate::mechanics::scene::{BodyId, RobotId, Scene};
 use crate::pictures::drawing::Colour;
 use crate::pictures::drawing::arrow::HEAD_LENGTH;
 
@@ -300,10 +301,9 @@ fn largest_unknown(contact: &Contact) -> f64 {
 /// values.
 fn largest_forces_on_blocks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<f64> {
     let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
-    let mut note = |block: BlockId, amount: f64| most[block.0] = most[block.0].max(amount);
-    for contact in &frame_analysis.contacts {
-        contact.acting().iter().for_each(|acting| note(acting.on, largest_unknown(contact)));
+    fill::raise(&mut most, frame_analysis, largest_unknown);
+    for robot in &frame_analysis.robots {
+        most[robot.block.0] = most[robot.block.0].max(robot.force.amax());
     }
-    frame_analysis.robots.iter().for_each(|robot| note(robot.block, robot.force.amax()));
     most
 }

@@ -47,6 +47,12 @@ pub(crate) fn bearings(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Opt
     frame_analysis.contacts.iter().map(bearing).collect()
 }
 
+/// Returns the contacts that press, without those whose force is 0 or [numerical noise](noise).
+pub(crate) fn pressed<'a>(scene: &Scene, found: &'a FrameAnalysis) -> impl Iterator<Item = (&'a Contact, Bearing)> {
+    let bearings = bearings(scene, found).into_iter();
+    found.contacts.iter().zip(bearings).filter_map(|(contact, bearing)| Some((contact, bearing?)))
+}
+
 /// Returns the largest force in newtons that counts as numerical noise of the solver on a block of weight `weight` (N).
 /// `largest` is the largest force of the frame (N).
 pub(crate) fn noise(largest: f64, weight: f64) -> f64 {
@@ -63,7 +69,7 @@ pub(crate) fn noise(largest: f64, weight: f64) -> f64 {
 /// the force of a joint acts.
 pub(crate) fn pressing(scene: &Scene, found: &FrameAnalysis, at: impl Fn(&Contact) -> Point) -> Vec<ActingForce> {
     let mut forces = Vec::new();
-    for (contact, _) in found.contacts.iter().zip(bearings(scene, found)).filter(|(_, bearing)| bearing.is_some()) {
+    for (contact, _) in pressed(scene, found) {
         forces.extend(contact.acting().into_iter().map(|acting| ActingForce { at: at(contact), ..acting }));
     }
     let noise = |robot: &RobotForce| noise(f64::INFINITY, scene.blocks[robot.block.0].weight);

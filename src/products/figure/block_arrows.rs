@@ -145,7 +145,7 @@ fn arrows(canvas: &mut Canvas<'_>, largest: f64) {
         let title = description::arrow(scene, unit, arrow);
         let mark = Mark::new(layer, "force", shapes).titled(title).keyed(if is_tick { &ticks } else { key });
         let few = placed.len() <= FEW_BLOCKS;
-        canvas.put(if is_tick && !few { mark } else { mark.avoided(canvas.mm(0.15)) });
+        canvas.put(if is_tick && !few { mark } else { mark.avoided(0.15) });
     }
     let all = options.amounts && placed.len() <= MAX_AMOUNT_BLOCKS;
     if all || !printed {
@@ -205,7 +205,7 @@ fn tick_key(canvas: &Canvas<'_>) -> Rc<Key> {
     let tick = canvas.mm(TICK);
     let words = if canvas.has_one_scale() {
         let newtons = round_above(tick / canvas.scale);
-        format!("up to {}", quantity(newtons, canvas.scene().units.force()))
+        format!("up to {}", canvas.newtons(newtons))
     } else {
         "a smaller force".to_owned()
     };
@@ -222,13 +222,13 @@ fn scale(canvas: &mut Canvas<'_>, largest: f64) {
         let symbol = vec![symbol(canvas, 0.0, length, ink)];
         canvas.explain(Key::new(12, format!("{words} on a block"), symbol, length));
     } else if canvas.options.keys {
-        let size = canvas.look.text * canvas.theme().sizes.amount;
+        let size = canvas.label_size();
         let (all, gap, wide) = (canvas.extent(), canvas.mm(1.2), text::width(&words, Face::Sans, size));
         let left = canvas.structure.at.x + (canvas.structure.width - length - gap - wide) / 2.0;
         let at = PagePoint::new(left, all.at.y + all.height + canvas.mm(2.6));
         let path = Path::filled(outline(canvas, at, (length, 0.0), canvas.mm(0.45)), ink);
-        canvas.put(Mark::new(Layer::Around, "scale", vec![path]).avoided(canvas.mm(0.3)));
+        canvas.put(Mark::new(Layer::Around, "scale", vec![path]).avoided(0.3));
         let middle = at.moved(length + gap + wide / 2.0, 0.0);
-        canvas.label(Label { fixed: Some(middle), ..Label::new(words, ink, vec![middle], 0) });
+        canvas.label(Label::at(middle, words, ink, 0));
     }
 }

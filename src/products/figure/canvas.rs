@@ -6,7 +6,7 @@
 use core::cell::OnceCell;
 use std::rc::Rc;
 
-use super::design::{Key, Layer, Look, Mark, around, colour};
+use super::design::{ArrowSize, Key, Layer, Look, Mark, around, colour, unit};
 use super::displacement::{Course, Displacement};
 use super::option::{ArrowScale, Options};
 use super::placing::{self, Label, Surroundings};
@@ -14,7 +14,8 @@ use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Motion, ThrustStates};
 use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
 use crate::pictures::drawing::style::ForceMarks;
-use crate::pictures::drawing::{Camera, Colour, Group, Item, PagePoint, PageRect, Path, Theme};
+use crate::pictures::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use crate::products::wording::number::quantity;
 
 /// If a frame has more blocks than this, shapes with the same paint are one path without tooltips. Thousands of
 /// elements would make a file slow to open.
@@ -173,6 +174,52 @@ impl<'a> Canvas<'a> {
     /// Converts millimetres of the design to pixels.
     pub fn mm(&self, length: f64) -> f64 {
         self.look.mm(length)
+    }
+
+    /// Returns a line `width` mm wide.
+    pub fn pen(&self, colour: Colour, width: f64) -> Stroke {
+        Stroke::new(colour, self.mm(width))
+    }
+
+    /// Returns a dashed line: its width, and the lengths of a dash and of a gap, in mm.
+    pub fn dashes(&self, colour: Colour, width: f64, dash: [f64; 2]) -> Stroke {
+        self.pen(colour, width).dashed(dash.map(|length| self.mm(length)))
+    }
+
+    /// Returns a disc around `at`. `radius` is in mm.
+    pub fn disc(&self, at: PagePoint, radius: f64, fill: Colour) -> Path {
+        Path::filled(Outline::circle(at, self.mm(radius)), fill)
+    }
+
+    /// Returns the sizes of an arrow `length` pixels long: the width of its shaft, and the width and the length of its
+    /// head, in mm. The head takes at most the fraction `most` of the arrow.
+    pub fn arrow(&self, length: f64, [shaft, wide, long]: [f64; 3], most: f64) -> ArrowSize {
+        ArrowSize { length, shaft: self.mm(shaft), head: (self.mm(wide), self.mm(long).min(most * length)) }
+    }
+
+    /// Returns the unit length of the blocks, pixels.
+    pub fn unit(&self) -> f64 {
+        self.camera.length(unit(self.scene(), self.options.zoom))
+    }
+
+    /// Converts a number of unit lengths to pixels, with a least and a largest value in mm.
+    pub fn in_units(&self, (units, least, most): (f64, f64, f64)) -> f64 {
+        (units * self.unit()).clamp(self.mm(least), self.mm(most))
+    }
+
+    /// Returns the font size of labels, pixels.
+    pub fn label_size(&self) -> f64 {
+        self.look.text * self.theme().sizes.amount
+    }
+
+    /// True if loads, missing forces, robots and the largest force have labels with their amounts.
+    pub fn states_amounts(&self) -> bool {
+        self.options.labels && self.options.main_amounts
+    }
+
+    /// Writes a force in the unit of the scene.
+    pub fn newtons(&self, newtons: f64) -> String {
+        quantity(newtons, self.scene().units.force())
     }
 
     /// True if all panels have the same scale of forces. In the look of the thesis, each panel has its own.

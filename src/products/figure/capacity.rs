@@ -13,16 +13,15 @@ use std::rc::Rc;
 use plan::Plan;
 
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, along, moved_edge, small_block, unit};
+use super::design::{Key, Layer, Mark, along, moved_edge, unit};
 use super::displacement::{Course, Displacement};
 use super::fall::Fall;
 use super::option::Options;
 use super::panel::{About, Figure, Subject};
 use super::placing::Label;
-use super::{load, stage};
 use crate::geometry::{Bounds, Point, in_half_plane};
 use crate::mechanics::analysis::{Analysis, CapacityShape};
-use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
+use crate::pictures::drawing::{Camera, Colour, Outline, PagePoint, Path, Theme};
 use crate::products::wording;
 use crate::products::wording::number::{quantity, round_below_in};
 
@@ -46,12 +45,12 @@ pub(crate) struct CarriedForces;
 impl Figure for CarriedForces {
     fn about(&self) -> About {
         About {
-            name: "capacity",
-            help: "All forces that a block can carry at a point, and how it falls beyond them; --capacity selects the block",
-            title: "The forces that a block can carry",
             needs_capacity: true,
-            states_own_margin: true,
-            ..About::default()
+            ..About::new(
+                "capacity",
+                "All forces that a block can carry at a point, and how it falls beyond them; --capacity selects the block",
+                "The forces that a block can carry",
+            )
         }
     }
 
@@ -77,11 +76,7 @@ impl Figure for CarriedForces {
         sentences.split("; ").map(str::to_owned).collect()
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
-        stage::ground(canvas);
-        stage::blocks(canvas);
-        stage::held(canvas);
-        load::loads(canvas);
+    fn above(&self, canvas: &mut Canvas<'_>) {
         canvas.mentioned.extend(canvas.found().capacity.iter().map(|capacity| capacity.block));
         if let Some(plan) = Plan::new(canvas.analysis, canvas.number) {
             let before = canvas.number.checked_sub(1);
@@ -91,7 +86,6 @@ impl Figure for CarriedForces {
             polygon(canvas, &plan);
             small_pictures(canvas, &plan);
         }
-        stage::names(canvas);
     }
 }
 
@@ -100,15 +94,14 @@ fn colour(theme: &Theme) -> Colour {
 }
 
 fn dot(canvas: &Canvas<'_>, at: PagePoint) -> Path {
-    let edge = Stroke::new(canvas.theme().ink, canvas.mm(0.28));
-    Path::filled(Outline::circle(at, canvas.mm(DOT_RADIUS)), canvas.theme().page).with_stroke(edge)
+    let edge = canvas.pen(canvas.theme().ink, 0.28);
+    canvas.disc(at, DOT_RADIUS, canvas.theme().page).with_stroke(edge)
 }
 
 fn arrow(canvas: &Canvas<'_>, from: PagePoint, to: PagePoint) -> Path {
     let (x, y) = (to.x - from.x, to.y - from.y);
     let length = libm::hypot(x, y).max(f64::MIN_POSITIVE);
-    let head = (canvas.mm(1.4), canvas.mm(1.5).min(0.6 * length));
-    let size = ArrowSize { length, shaft: canvas.mm(0.4), head };
+    let size = canvas.arrow(length, [0.4, 1.4, 1.5], 0.6);
     Path::filled(size.outline(from, (x / length, y / length)), colour(canvas.theme()))
 }
 
@@ -122,14 +115,14 @@ fn polygon(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
     let area = Path::filled(Outline::ring(ring.clone()), theme.safe).with_opacity(AREA_OPACITY);
     let has_area = ring.len() > 2;
     let ends: Vec<PagePoint> = plan.capacity.at.iter().map(|p| canvas.place(*p)).collect();
-    let loaded = Path::stroked(Outline::line(ends.clone()), Stroke::new(ink, canvas.mm(0.6)));
+    let loaded = Path::stroked(Outline::line(ends.clone()), canvas.pen(ink, 0.6));
     if !plan.is_apart && ends.len() > 1 {
         shapes.push(loaded.clone());
     }
     for side in &plan.sides {
         let [from, to] = side.ends.map(|p| canvas.place(p));
-        let width = canvas.mm(if side.number.is_some() { EDGE_WIDTHS.0 } else { EDGE_WIDTHS.1 });
-        shapes.push(Path::stroked(Outline::line([from, to]), Stroke::new(ink, width)));
+        let width = if side.number.is_some() { EDGE_WIDTHS.0 } else { EDGE_WIDTHS.1 };
+        shapes.push(Path::stroked(Outline::line([from, to]), canvas.pen(ink, width)));
         for (end, other, is_open) in [(from, to, side.is_open[0]), (to, from, side.is_open[1])] {
             if is_open {
                 shapes.push(Path::filled(open_end(canvas, end, other), ink));
@@ -146,7 +139,7 @@ fn polygon(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
     }
     if plan.capacity.shape() == CapacityShape::Point {
         let at = canvas.place(plan.zero + plan.capacity.vertices[0].force * plan.scale);
-        shapes.push(Path::filled(Outline::circle(at, canvas.mm(DOT_RADIUS)), ink));
+        shapes.push(canvas.disc(at, DOT_RADIUS, ink));
     }
     let key = area_key(canvas, plan);
     let titled = |mark: Mark| mark.titled(format!("Carried forces: {words}")).keyed(&key);
@@ -157,17 +150,17 @@ fn polygon(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
     } else {
         titled(Mark::new(Layer::Force, "capacity", shapes))
     };
-    canvas.put(edges.avoided(canvas.mm(0.1)));
+    canvas.put(edges.avoided(0.1));
     canvas.explain(scale_key(canvas, plan));
     let point = canvas.place(plan.point);
     if plan.is_apart {
         // A dotted line leads from the loaded point to the nearest corner of the polygon.
         let far = |p: &PagePoint| p.distance(point);
         let to = ring.iter().copied().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(point);
-        let dotted = Stroke::new(theme.faint, canvas.mm(0.2)).dashed([canvas.mm(0.3), canvas.mm(0.6)]);
+        let dotted = canvas.dashes(theme.faint, 0.2, [0.3, 0.6]);
         let place = if ends.len() > 1 { loaded } else { dot(canvas, point) };
         let shapes = vec![Path::stroked(Outline::line([point, to]), dotted), place];
-        canvas.put(Mark::new(Layer::Symbol, "leader", shapes).avoided(canvas.mm(0.1)));
+        canvas.put(Mark::new(Layer::Symbol, "leader", shapes).avoided(0.1));
         return;
     }
     let zero = canvas.place(plan.zero);
@@ -179,14 +172,14 @@ fn polygon(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
         let words = "example of a carried force";
         let key = Key::new(12, words, symbol, long);
         let shapes = vec![arrow(canvas, zero, canvas.place(plan.middle()))];
-        canvas.put(Mark::new(Layer::Symbol, "example", shapes).keyed(&key).avoided(canvas.mm(0.1)));
+        canvas.put(Mark::new(Layer::Symbol, "example", shapes).keyed(&key).avoided(0.1));
     }
-    canvas.put(Mark::new(Layer::Symbol, "zero", vec![dot(canvas, zero)]).avoided(canvas.mm(0.2)));
+    canvas.put(Mark::new(Layer::Symbol, "zero", vec![dot(canvas, zero)]).avoided(0.2));
 }
 
 /// Draws the polygon of carried forces of the previous step as a dashed outline.
 fn earlier(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
-    let stroke = Stroke::new(canvas.theme().faint, canvas.mm(0.2)).dashed([canvas.mm(0.75), canvas.mm(0.55)]);
+    let stroke = canvas.dashes(canvas.theme().faint, 0.2, [0.75, 0.55]);
     let key = Key::line(14, "in the previous step", canvas.mm(4.8), stroke.clone());
     let ring = plan.ring.iter().map(|p| canvas.place(*p));
     let mark = Mark::new(Layer::Force, "before", vec![Path::stroked(Outline::ring(ring), stroke)]).keyed(&key);
@@ -194,13 +187,14 @@ fn earlier(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
 }
 
 fn area_key(canvas: &Canvas<'_>, plan: &Plan<'_>) -> Rc<Key> {
-    let (swatch, width) = small_block(canvas.look);
-    let edge = Stroke::new(colour(canvas.theme()), canvas.mm(EDGE_WIDTHS.1));
-    let symbol =
-        vec![Path::filled(swatch.clone(), canvas.theme().safe).with_opacity(AREA_OPACITY), Path::stroked(swatch, edge)];
+    let edge = canvas.pen(colour(canvas.theme()), EDGE_WIDTHS.1);
+    let drawn = |small: Outline| {
+        let area = Path::filled(small.clone(), canvas.theme().safe).with_opacity(AREA_OPACITY);
+        vec![area, Path::stroked(small, edge)]
+    };
     let words =
         if plan.is_apart { "tips of the carried forces" } else { "tips of the carried forces, tails at the dot" };
-    Key::new(10, words, symbol, width)
+    Key::block(10, words, canvas.look, drawn)
 }
 
 /// Returns the entry with the scale of the forces.
@@ -217,7 +211,7 @@ fn open_key(canvas: &Canvas<'_>) -> Rc<Key> {
     let (start, end) = (PagePoint::new(0.0, 0.0), PagePoint::new(canvas.mm(3.6), 0.0));
     let ink = colour(canvas.theme());
     let symbol = vec![
-        Path::stroked(Outline::line([start, end]), Stroke::new(ink, canvas.mm(EDGE_WIDTHS.1))),
+        Path::stroked(Outline::line([start, end]), canvas.pen(ink, EDGE_WIDTHS.1)),
         Path::filled(open_end(canvas, end, start), ink),
     ];
     Key::new(15, "without limit", symbol, canvas.mm(4.8))
@@ -233,24 +227,10 @@ fn open_end(canvas: &Canvas<'_>, end: PagePoint, other: PagePoint) -> Outline {
     )
 }
 
-/// Where a small picture lies, and the part of the scene that it shows.
-struct Window {
-    view: Bounds,
-    corner: PagePoint,
-    /// Pixels per metre.
-    scale: f64,
-}
-
-impl Window {
-    fn place(&self, p: Point) -> PagePoint {
-        self.corner.moved((p.x - self.view.min.x) * self.scale, (self.view.max.y - p.y) * self.scale)
-    }
-}
-
 /// Draws, in a row below the structure, how it falls under forces beyond the numbered edges of the polygon.
 fn small_pictures(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
     let (analysis, frame, scene) = (canvas.analysis, canvas.number, canvas.scene());
-    let numbered: Vec<usize> = plan.numbers.clone();
+    let numbered = &plan.numbers;
     if numbered.is_empty() {
         return;
     }
@@ -263,8 +243,7 @@ fn small_pictures(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
         };
         numbered.iter().map(course).collect()
     });
-    let placed = scene.frames[frame].placed.iter().map(|id| scene.blocks[id.0].body.polygon.bounds());
-    let Some(view) = placed.reduce(Bounds::union) else { return };
+    let Some(view) = scene.bounds(&scene.frames[frame].placed) else { return };
     let view = view.grown((0.09 * view.diagonal()).max(0.4 * unit));
     let below = canvas.extent();
     let room = if canvas.look.panel.is_finite() { canvas.look.panel } else { below.width };
@@ -276,14 +255,14 @@ fn small_pictures(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
     let top = below.at.y + below.height + canvas.mm(1.5);
     let ink = colour(canvas.theme());
     canvas.note(16, "1, 2, …: falls beyond this edge");
-    let size = canvas.look.text * canvas.theme().sizes.amount;
+    let size = canvas.label_size();
     for (k, (edge, course)) in numbered.iter().zip(courses).enumerate() {
         let corner = PagePoint::new(left + k as f64 * (wide + gap), top);
-        let window = Window { view, corner, scale };
-        let mut shapes = small_picture(canvas, &window, &course.at(1.0));
+        let camera = Camera::new(view, corner, scale);
+        let mut shapes = small_picture(canvas, view, &camera, &course.at(1.0));
         // The loaded point begins to move in the direction of the outward normal of the edge.
         let moved = course.at(1.0).get(plan.capacity.block.0).copied().flatten();
-        let from = window.place(moved.map_or(plan.point, |displacement| displacement.moved(plan.point)));
+        let from = camera.place(moved.map_or(plan.point, |displacement| displacement.moved(plan.point)));
         let normal = plan.capacity.edges[*edge].normal;
         let long = (0.2 * scale * view.width().min(view.height())).max(canvas.mm(LEAST_ARROW));
         shapes.push(arrow(canvas, from, from.moved(normal.x * long, -normal.y * long)));
@@ -291,44 +270,43 @@ fn small_pictures(canvas: &mut Canvas<'_>, plan: &Plan<'_>) {
         let mark = Mark::new(Layer::Symbol, "mechanism", shapes).avoided(0.0);
         canvas.put(mark.titled(format!("How the structure begins to fall beyond edge {number}")));
         let at = corner.moved(-0.9 * size, scale * view.height() / 2.0);
-        canvas.label(Label { bold: true, fixed: Some(at), ..Label::new(number.to_string(), ink, vec![at], 0) });
+        canvas.label(Label { bold: true, ..Label::at(at, number.to_string(), ink, 0) });
     }
 }
 
 /// Draws the ground and the blocks of a small picture.
-fn small_picture(canvas: &Canvas<'_>, window: &Window, moved: &[Option<Displacement>]) -> Vec<Path> {
+fn small_picture(canvas: &Canvas<'_>, view: Bounds, camera: &Camera, moved: &[Option<Displacement>]) -> Vec<Path> {
     let (scene, theme) = (canvas.scene(), canvas.theme());
     let mut ground = Outline::default();
     for ring in scene.ground.iter().flat_map(|ground| ground.body.polygon.rings()) {
-        let Bounds { min, max } = window.view;
+        let Bounds { min, max } = view;
         let ring = in_half_plane(ring, |p: &Point| min.x - p.x);
         let ring = in_half_plane(&ring, |p: &Point| p.x - max.x);
         let ring = in_half_plane(&ring, |p: &Point| min.y - p.y);
         let ring = in_half_plane(&ring, |p: &Point| p.y - max.y);
         if ring.len() > 2 {
-            ground.extend(Outline::ring(ring.iter().map(|p| window.place(*p))));
+            ground.extend(Outline::ring(ring.iter().map(|p| camera.place(*p))));
         }
     }
     let (mut rest, mut was, mut goes) = (Outline::default(), Outline::default(), Outline::default());
     for id in &canvas.frame().placed {
-        for ring in scene.blocks[id.0].body.polygon.rings() {
-            let here = Outline::ring(ring.iter().map(|p| window.place(*p)));
-            match moved.get(id.0).and_then(Option::as_ref) {
-                None => rest.extend(here),
-                Some(displacement) => {
-                    was.extend(here);
-                    goes.extend(Outline::ring(ring.iter().map(|p| window.place(displacement.moved(*p)))));
-                }
+        let polygon = &scene.blocks[id.0].body.polygon;
+        match moved.get(id.0).and_then(Option::as_ref) {
+            None => rest.extend(camera.polygon(polygon)),
+            Some(displacement) => {
+                was.extend(camera.polygon(polygon));
+                goes.extend(camera.polygon(&displacement.polygon(polygon)));
             }
         }
     }
-    let line = canvas.mm(0.13);
-    let dashed = Stroke::new(theme.rule, line).dashed([canvas.mm(0.4), canvas.mm(0.3)]);
+    /// Width of the edges of blocks, mm.
+    const LINE: f64 = 0.13;
+    let dashed = canvas.dashes(theme.rule, LINE, [0.4, 0.3]);
     let fill = theme.page.mixed(theme.motion, 0.38);
     vec![
         Path::filled(ground, theme.ground.mixed(theme.page, 0.6)),
         Path::stroked(was, dashed),
-        Path::filled(rest, theme.block).with_stroke(Stroke::new(theme.outline, line)),
-        Path::filled(goes, fill).with_stroke(Stroke::new(moved_edge(theme), line)),
+        Path::filled(rest, theme.block).with_stroke(canvas.pen(theme.outline, LINE)),
+        Path::filled(goes, fill).with_stroke(canvas.pen(moved_edge(theme), LINE)),
     ]
 }

@@ -7,14 +7,14 @@
 
 use super::canvas::Canvas;
 use super::change::{ForceChange, count_in_words, noise, shared_forces};
-use super::design::{Key, Layer, Look, Mark, small_block};
+use super::design::{Key, Layer, Look, Mark};
 use super::joint_forces::{JointForces, mark};
 use super::option::Options;
 use super::panel::{About, Figure, View};
 use crate::geometry::Vector;
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
-use crate::pictures::drawing::{Outline, PagePoint, Path, Stroke};
+use crate::pictures::drawing::{Outline, PagePoint, Path};
 use crate::products::wording::failure::pair;
 use crate::products::wording::number::{force, listed, quantity};
 
@@ -30,13 +30,11 @@ pub(crate) struct Comparison;
 
 impl Figure for Comparison {
     fn about(&self) -> About {
-        About {
-            name: "compare",
-            help: "Changes between consecutive frames, or between the last frames of two scenes",
-            title: "Changes in a dry-laid structure",
-            states_own_margin: true,
-            ..About::default()
-        }
+        About::new(
+            "compare",
+            "Changes between consecutive frames, or between the last frames of two scenes",
+            "Changes in a dry-laid structure",
+        )
     }
 
     fn scale(&self, view: &View<'_>, look: Look) -> f64 {
@@ -104,15 +102,13 @@ fn outlines(canvas: &mut Canvas<'_>) {
     };
     let [new, gone] = blocks(analysis, canvas.number);
     let gone = left_behind(scene, &new, &gone);
-    let dashed = Stroke::new(ink, canvas.mm(0.3)).dashed([canvas.mm(0.95), canvas.mm(0.75)]);
+    let dashed = canvas.dashes(ink, 0.3, [0.95, 0.75]);
     let all = [
         ("gone", gone, dashed, (15, gone_words), "Blocks that are gone"),
-        ("new", new, Stroke::new(ink, canvas.mm(0.55)), (14, new_words), "Blocks that are new"),
+        ("new", new, canvas.pen(ink, 0.55), (14, new_words), "Blocks that are new"),
     ];
     for (class, ids, stroke, (rank, words), title) in all {
-        let (swatch, width) = small_block(canvas.look);
-        let symbol = vec![Path::stroked(swatch, stroke.clone())];
-        let key = Key::new(rank, words, symbol, width);
+        let key = Key::block(rank, words, canvas.look, |small| vec![Path::stroked(small, stroke.clone())]);
         let mut outline = Outline::default();
         for id in &ids {
             outline.extend(canvas.camera.polygon(&scene.blocks[id.0].body.polygon));
@@ -144,7 +140,7 @@ fn previous(canvas: &mut Canvas<'_>, change: &ForceChange<'_>) {
 /// Draws a ring around each force that changed.
 fn rings(canvas: &mut Canvas<'_>, changes: &[ForceChange<'_>]) {
     let (scene, radius) = (canvas.scene(), canvas.mm(RING_RADIUS));
-    let stroke = Stroke::new(canvas.theme().motion, canvas.mm(0.3));
+    let stroke = canvas.pen(canvas.theme().motion, 0.3);
     let small = 0.7 * radius;
     let symbol = vec![Path::stroked(Outline::circle(PagePoint::new(small, 0.0), small), stroke.clone())];
     let words = "force changed by over 5\u{a0}%; before: faint";
@@ -152,10 +148,10 @@ fn rings(canvas: &mut Canvas<'_>, changes: &[ForceChange<'_>]) {
     for change in changes {
         let now = change.contacts[1];
         let pair = pair(scene, now.interface.bodies);
-        let [was, is] = change.amounts().map(|amount| quantity(amount, scene.units.force()));
+        let [was, is] = change.amounts().map(|amount| canvas.newtons(amount));
         let ring = Path::stroked(Outline::circle(canvas.place(now.resultant.at), radius), stroke.clone());
         let mark = Mark::new(Layer::Symbol, "change", vec![ring]).keyed(&key);
-        canvas.put(mark.titled(format!("Between {pair}: {was} before, {is} now")).avoided(canvas.mm(0.1)));
+        canvas.put(mark.titled(format!("Between {pair}: {was} before, {is} now")).avoided(0.1));
     }
 }
 

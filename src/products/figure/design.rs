@@ -98,6 +98,13 @@ impl Key {
         Key::new(rank, words, vec![Path::stroked(Key::piece(length), stroke)], length)
     }
 
+    /// The entry for blocks: `drawn` draws a small one.
+    pub fn block(rank: u8, words: &str, look: Look, drawn: impl FnOnce(Outline) -> Vec<Path>) -> Rc<Key> {
+        let (wide, half) = (look.mm(3.6), look.mm(1.1));
+        let corners = [(0.0, -half), (wide, -half), (wide, half), (0.0, half)];
+        Key::new(rank, words, drawn(Outline::ring(corners.map(|(x, y)| PagePoint::new(x, y)))), wide)
+    }
+
     /// Returns the line from (0, 0) to the right.
     pub fn piece(length: f64) -> Outline {
         Outline::line([0.0, length].map(|x| PagePoint::new(x, 0.0)))
@@ -117,7 +124,7 @@ pub(crate) struct Mark {
     pub shapes: Vec<Path>,
     /// The entry of the legend that explains the mark.
     pub key: Option<Rc<Key>>,
-    /// The clear space that labels leave around the mark, pixels; `None` if labels may lie on it.
+    /// The clear space that labels leave around the mark, mm; `None` if labels may lie on it.
     pub avoid: Option<f64>,
 }
 
@@ -134,7 +141,7 @@ impl Mark {
         Mark { key: Some(Rc::clone(key)), ..self }
     }
 
-    /// Labels leave this much clear space around the mark, pixels.
+    /// Labels leave this much clear space around the mark, mm.
     pub fn avoided(self, clear: f64) -> Mark {
         Mark { avoid: Some(clear), ..self }
     }
@@ -204,13 +211,6 @@ impl ArrowSize {
         let [front, back] = [u, (-u.0, -u.1)].map(|u| self.corners(p, u));
         Outline::ring(front[1..6].iter().chain(&back[1..6]).copied())
     }
-}
-
-/// Returns the outline of a small block in the legend, and its width.
-pub(crate) fn small_block(look: Look) -> (Outline, f64) {
-    let (wide, half) = (look.mm(3.6), look.mm(1.1));
-    let corners = [(0.0, -half), (wide, -half), (wide, half), (0.0, half)];
-    (Outline::ring(corners.map(|(x, y)| PagePoint::new(x, y))), wide)
 }
 
 /// Returns the colour of the edges of displaced blocks.

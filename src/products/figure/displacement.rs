@@ -266,26 +266,26 @@ fn overlapping(bodies: &[Solid<'_>], displaced: &[Option<Displacement>]) -> Vec<
 /// Returns the amplitude of a group: the displacement, in metres, that a point of speed 1 has at the end of the path.
 /// Overlaps with other blocks are not considered. `unit` is the unit length in metres.
 fn amplitude(scene: &Scene, group: &[Motion], unit: f64) -> f64 {
-    let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
-    let spin = group.iter().map(|m| m.spin.abs()).fold(0.0, f64::max);
-    let bounds = group.iter().map(|m| scene.blocks[m.block.0].body.polygon.bounds());
-    let size = bounds.reduce(Bounds::union).map_or(0.0, Bounds::diagonal);
-    if fastest <= 0.0 {
-        return 0.0;
-    }
-    let displacement = f64::max(MIN_DISPLACEMENT * unit.min(size), MIN_DISPLACEMENT_SHARE * size);
-    let amplitude = displacement / fastest;
-    if spin > 0.0 { amplitude.min(MAX_ROTATION / spin) } else { amplitude }
+    let way = |size: f64| f64::max(MIN_DISPLACEMENT * unit.min(size), MIN_DISPLACEMENT_SHARE * size);
+    bounded_amplitude(scene, group, way, MAX_ROTATION)
 }
 
 /// Returns the amplitude at the end of the path of an animation.
 fn far_amplitude(scene: &Scene, group: &[Motion]) -> f64 {
+    bounded_amplitude(scene, group, |size| FAR_SHARE * size, FAR_ROTATION)
+}
+
+/// Returns the amplitude with which the fastest point of a group moves by `way` of the size of the group, unless a block
+/// would then turn by more than `rotation`, rad.
+fn bounded_amplitude(scene: &Scene, group: &[Motion], way: impl Fn(f64) -> f64, rotation: f64) -> f64 {
     let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
     let spin = group.iter().map(|m| m.spin.abs()).fold(0.0, f64::max);
-    let bounds = group.iter().map(|m| scene.blocks[m.block.0].body.polygon.bounds());
-    let size = bounds.reduce(Bounds::union).map_or(0.0, Bounds::diagonal);
-    let amplitude = if fastest > 0.0 { FAR_SHARE * size / fastest } else { 0.0 };
-    if spin > 0.0 { amplitude.min(FAR_ROTATION / spin) } else { amplitude }
+    let size = scene.bounds(group.iter().map(|m| &m.block)).map_or(0.0, Bounds::diagonal);
+    if fastest <= 0.0 {
+        return 0.0;
+    }
+    let amplitude = way(size) / fastest;
+    if spin > 0.0 { amplitude.min(rotation / spin) } else { amplitude }
 }
 
 #[cfg(test)]

@@ -64,12 +64,9 @@ impl<'a> Fall<'a> {
 
     /// A motion of a frame under other loads, and with another friction coefficient at all joints.
     pub fn with_friction(analysis: &'a Analysis, frame: usize, motions: &[Motion], friction: Option<f64>) -> Fall<'a> {
-        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
-        let mut by_block = vec![None; scene.blocks.len()];
-        for motion in motions {
-            by_block[motion.block.0] = Some(*motion);
-        }
-        let mut fall = Fall { scene, frame, found, joints: Vec::new(), motions: by_block };
+        let (scene, found) = analysis.at(frame);
+        let motions = motions_by_block(scene, motions);
+        let mut fall = Fall { scene, frame, found, joints: Vec::new(), motions };
         fall.joints = fall.found_joints(friction);
         fall
     }
@@ -154,6 +151,15 @@ impl<'a> Fall<'a> {
         };
         contacts.iter().enumerate().filter_map(one).collect()
     }
+}
+
+/// Returns the motion of each block, indexed by block; `None` for a block that does not move.
+pub(super) fn motions_by_block(scene: &Scene, motions: &[Motion]) -> Vec<Option<Motion>> {
+    let mut by_block = vec![None; scene.blocks.len()];
+    for motion in motions {
+        by_block[motion.block.0] = Some(*motion);
+    }
+    by_block
 }
 
 /// Classifies the relative motion at a contact; `None` if the two bodies move together. `relative` contains the

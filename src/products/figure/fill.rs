@@ -191,13 +191,18 @@ fn robot_limit_used(scene: &Scene, frame_analysis: &FrameAnalysis, block: BlockI
     Some(share(robot.force.x.abs(), limits.fx).max(share(robot.force.y.abs(), limits.fy)))
 }
 
-/// Returns, for each placed block in placing order, the largest value of `amount` on the interfaces of the block.
-fn largest(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis, amount: impl Fn(&Contact) -> f64) -> Vec<f64> {
-    let mut most = vec![0.0_f64; scene.blocks.len()];
+/// Raises the value of each block, indexed by block, to the largest value of `amount` on its interfaces.
+pub(super) fn raise(most: &mut [f64], frame_analysis: &FrameAnalysis, amount: impl Fn(&Contact) -> f64) {
     for contact in &frame_analysis.contacts {
         let amount = amount(contact);
         contact.acting().iter().for_each(|acting| most[acting.on.0] = most[acting.on.0].max(amount));
     }
+}
+
+/// Returns, for each placed block in placing order, the largest value of `amount` on the interfaces of the block.
+fn largest(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis, amount: impl Fn(&Contact) -> f64) -> Vec<f64> {
+    let mut most = vec![0.0_f64; scene.blocks.len()];
+    raise(&mut most, frame_analysis, amount);
     frame.placed.iter().map(|block| most[block.0]).collect()
 }
 

@@ -14,14 +14,14 @@ use std::sync::Arc;
 use path::ribbon;
 use strand::{Strand, StrandKind, strands};
 
-use super::bearing::bearings;
+use super::bearing::pressed;
 use super::canvas::Canvas;
 use super::description::exerted_by;
-use super::design::{Key, Layer, Look, Mark, unit};
+use super::design::{Key, Layer, Look, Mark};
 use super::panel::{About, Figure, View};
-use super::{joint_forces, load, stage};
+use super::{joint_forces, stage};
 use crate::mechanics::analysis::{ForceKind, FrameAnalysis, Verdict};
-use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Stroke, Theme};
+use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path, Theme};
 use crate::products::wording::failure::pair;
 use crate::products::wording::number::{quantity, round_below_in};
 
@@ -44,10 +44,12 @@ pub(crate) struct ForceFlow;
 impl Figure for ForceFlow {
     fn about(&self) -> About {
         About {
-            name: "flow",
-            help: "The paths of the forces through the blocks, as lines as wide as the forces",
-            title: "The flow of forces in a dry-laid structure",
-            ..About::default()
+            states_margin: true,
+            ..About::new(
+                "flow",
+                "The paths of the forces through the blocks, as lines as wide as the forces",
+                "The flow of forces in a dry-laid structure",
+            )
         }
     }
 
@@ -58,20 +60,18 @@ impl Figure for ForceFlow {
         look.mm(LONGEST_ARROW) / loads.chain(missing).fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
-        stage::ground(canvas);
-        stage::blocks(canvas);
+    fn below(&self, canvas: &mut Canvas<'_>) {
         let bands = Bands::new(canvas);
         bands.draw(canvas);
         if !bands.joined {
             dots(canvas);
         }
         label(canvas);
-        stage::held(canvas);
+    }
+
+    fn above(&self, canvas: &mut Canvas<'_>) {
         stage::robot_limits(canvas);
-        load::loads(canvas);
         joint_forces::missing(canvas);
-        stage::names(canvas);
     }
 }
 
@@ -104,10 +104,7 @@ struct Bands {
 
 impl Bands {
     fn new(canvas: &Canvas<'_>) -> Bands {
-        let (share, least, most) = LARGEST_BAND_WIDTH;
-        let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
-        let widest = (share * unit).clamp(canvas.mm(least), canvas.mm(most));
-        let scale = widest / largest(&canvas.analysis.frames).max(f64::MIN_POSITIVE);
+        let scale = canvas.in_units(LARGEST_BAND_WIDTH) / largest(&canvas.analysis.frames).max(f64::MIN_POSITIVE);
         let strands = strands(canvas.scene(), canvas.frame(), canvas.found(), canvas.camera.metres(scale));
         let joined = canvas.frame().placed.len() > MAX_SINGLE_STRANDS;
         Bands { strands, scale, least: canvas.mm(MIN_BAND_WIDTH), joined }
@@ -126,7 +123,7 @@ impl Bands {
                     continue;
                 }
                 let mark = Mark::new(Layer::Force, "strand", vec![self.filled(canvas, outline, kind)]);
-                canvas.put(mark.titled(title(canvas, strand)).keyed(&key).avoided(canvas.mm(0.1)));
+                canvas.put(mark.titled(title(canvas, strand)).keyed(&key).avoided(0.1));
             }
             if !joined.segments.is_empty() {
                 canvas.put(Mark::new(Layer::Force, "flow", vec![self.filled(canvas, joined, kind)]).keyed(&key));
@@ -134,7 +131,7 @@ impl Bands {
         }
         let thin = self.least / self.scale;
         if self.strands.iter().any(|strand| strand.widths.iter().any(|width| *width < thin)) {
-            let words = quantity(thin, canvas.scene().units.force());
+            let words = canvas.newtons(thin);
             canvas.note(70, &format!("all forces under {words} have the same width"));
         }
         if self.strands.iter().any(|strand| !strand.exact) {
@@ -161,7 +158,7 @@ impl Bands {
         let band = Path::filled(outline, colour(canvas.theme(), canvas.found().verdict, kind));
         match kind {
             StrandKind::Missing => {
-                let edge = Stroke::new(canvas.theme().failure, canvas.mm(MISSING_EDGE));
+                let edge = canvas.pen(canvas.theme().failure, MISSING_EDGE);
                 band.with_stroke(edge.dashed([canvas.mm(0.55), canvas.mm(0.37)]))
             }
             StrandKind::Carried | StrandKind::Weight => band,
@@ -195,7 +192,7 @@ fn title(canvas: &Canvas<'_>, strand: &Strand) -> String {
         kind if kind.is_failure() => "a missing force".to_owned(),
         kind => exerted_by(scene, kind).unwrap_or("its weight".to_owned()),
     };
-    let [from, to] = strand.amounts.map(|newtons| quantity(newtons, scene.units.force()));
+    let [from, to] = strand.amounts.map(|newtons| canvas.newtons(newtons));
     let block = &scene.blocks[strand.on.0].id;
     format!("In block {block}: {from} from {}, {to} to {}", name(strand.from), name(strand.to))
 }
@@ -203,7 +200,7 @@ fn title(canvas: &Canvas<'_>, strand: &Strand) -> String {
 /// Draws a dot at the point of action of the resultant of each joint with a force.
 fn dots(canvas: &mut Canvas<'_>) {
     let (scene, found, theme) = (canvas.scene(), canvas.found(), canvas.theme());
-    let radius = (0.06 * canvas.camera.length(unit(scene, canvas.options.zoom))).clamp(canvas.mm(0.2), canvas.mm(0.6));
+    let radius = canvas.in_units((0.06, 0.2, 0.6));
     let dot = |at: PagePoint, radius: f64| {
         vec![Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)]
     };
@@ -211,15 +208,12 @@ fn dots(canvas: &mut Canvas<'_>) {
     let symbol = dot(PagePoint::new(of_key, 0.0), of_key);
     let words = "resultant of a joint";
     let key = Key::new(24, words, symbol, 2.0 * of_key);
-    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
-        if bearing.is_none() {
-            continue;
-        }
+    for (contact, _) in pressed(scene, found) {
         let pair = pair(scene, contact.interface.bodies);
-        let amount = quantity(contact.amount(), scene.units.force());
+        let amount = canvas.newtons(contact.amount());
         let shapes = dot(canvas.place(contact.resultant.at), radius);
         let mark = Mark::new(Layer::Force, "resultant", shapes).titled(format!("Between {pair}: {amount}"));
-        canvas.put(mark.keyed(&key).avoided(canvas.mm(0.2)));
+        canvas.put(mark.keyed(&key).avoided(0.2));
     }
 }
 
@@ -233,7 +227,7 @@ fn label(canvas: &mut Canvas<'_>) {
     });
     if let Some(contact) = largest.filter(|contact| contact.amount() > 0.0) {
         let theme = canvas.theme();
-        let words = quantity(contact.amount(), canvas.scene().units.force());
+        let words = canvas.newtons(contact.amount());
         let ink = theme.letters_on(theme.page, Some(colour(theme, canvas.found().verdict, StrandKind::Carried)));
         let at = canvas.place(contact.resultant.at);
         stage::amount(canvas, words, ink, (vec![at], 3), None);

@@ -30,7 +30,7 @@ use super::verdict;
 use crate::mechanics::analysis::{Analysis, Contact};
 use crate::mechanics::scene::{BlockId, BodyId};
 use crate::pictures::drawing::symbol::{Accent, Symbol};
-use crate::pictures::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, Path, Stroke, Text, hatch, text};
+use crate::pictures::drawing::{Anchor, Face, Group, Item, Outline, PagePoint, Path, Text, hatch, text};
 use crate::products::wording::number::{letter, listed, quantity, round_below_in};
 
 /// Font size of the table, pixels.
@@ -49,11 +49,12 @@ pub(crate) struct FreeBody;
 impl Figure for FreeBody {
     fn about(&self) -> About {
         About {
-            name: "freebody",
-            help: "One block as a free body: all forces on it, with their names and a table of them",
-            title: "A block cut free",
             shows_one_block: true,
-            ..About::default()
+            ..About::new(
+                "freebody",
+                "One block as a free body: all forces on it, with their names and a table of them",
+                "A block cut free",
+            )
         }
     }
 
@@ -196,11 +197,11 @@ impl<'a> Body<'a> {
             let rings: Vec<Vec<PagePoint>> = polygon.rings().iter().map(on_page).collect();
             let sides = rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
             let edges = Outline::lines(sides.filter_map(|(a, b)| view.part_of([*a, *b])));
-            let width = canvas.mm(if body == own { 0.34 } else { 0.24 });
-            let edges = vec![Path::stroked(edges, Stroke::new(theme.ink, width))];
+            let width = if body == own { 0.34 } else { 0.24 };
+            let edges = vec![Path::stroked(edges, canvas.pen(theme.ink, width))];
             if is_ground {
                 let hatching = Outline::lines(hatch(&rings, view, canvas.mm(1.3)));
-                let hatching = vec![Path::stroked(hatching, Stroke::new(theme.faint, canvas.mm(0.15)))];
+                let hatching = vec![Path::stroked(hatching, canvas.pen(theme.faint, 0.15))];
                 canvas.put(Mark::new(Layer::Ground, "body", hatching).titled(title.clone()).avoided(0.0));
             } else {
                 let visible: Vec<Vec<PagePoint>> = rings.iter().map(|ring| clipped(ring, view)).collect();
@@ -220,7 +221,7 @@ impl<'a> Body<'a> {
                 }
             }
             let class = if body == own { "block" } else { "body" };
-            canvas.put(Mark::new(Layer::Stone, class, edges).titled(title).avoided(canvas.mm(0.2)));
+            canvas.put(Mark::new(Layer::Stone, class, edges).titled(title).avoided(0.2));
         }
     }
 
@@ -231,8 +232,7 @@ impl<'a> Body<'a> {
         for (number, arrow) in arrows.iter().filter(|arrow| arrow.is_seen()).enumerate() {
             let shapes = arrow.shapes(canvas);
             let layer = if arrow.missing { Layer::Missing } else { Layer::Force };
-            let clear = canvas.mm(0.25);
-            canvas.put(Mark::new(layer, "force", shapes).titled(arrow.title.clone()).avoided(clear));
+            canvas.put(Mark::new(layer, "force", shapes).titled(arrow.title.clone()).avoided(0.25));
             if let Some(symbol) = arrow.symbol.clone().filter(|_| names && number < MAX_NAMES) {
                 let ink = canvas.theme().ink;
                 let (anchors, away) = arrow.anchors();
@@ -255,13 +255,13 @@ impl<'a> Body<'a> {
                 points.push(("p", (k + 1).to_string(), corner.at));
             }
         }
-        let size = canvas.look.text * theme.sizes.amount;
-        let dash = Stroke::new(theme.faint, canvas.mm(0.18)).dashed([canvas.mm(0.9), canvas.mm(0.7)]);
+        let size = canvas.label_size();
+        let dash = canvas.dashes(theme.faint, 0.18, [0.9, 0.7]);
         for (letter, number, point) in points {
             let p = canvas.place(point);
             for (end, axis) in [(PagePoint::new(left, p.y), "y"), (PagePoint::new(p.x, floor), "x")] {
                 let line = vec![Path::stroked(Outline::line([end, p]), dash.clone())];
-                canvas.put(Mark::new(Layer::Stone, "guides", line).avoided(canvas.mm(0.1)));
+                canvas.put(Mark::new(Layer::Stone, "guides", line).avoided(0.1));
                 let symbol = Symbol::new(letter, Accent::None, &format!("{axis}{number}"));
                 let (wide, high) = symbol.size(1.4 * size);
                 let fixed = match axis {
@@ -285,11 +285,11 @@ impl<'a> Body<'a> {
         let size = ArrowSize { length: long, shaft: canvas.mm(0.26), head: (canvas.mm(1.1), canvas.mm(1.4)) };
         let shapes = [(1.0, 0.0), (0.0, -1.0)].map(|u| Path::filled(size.outline(origin, u), theme.ink)).to_vec();
         let mark = Mark::new(Layer::Around, "axes", shapes).titled("Axes: x to the right, y up");
-        canvas.put(mark.avoided(canvas.mm(0.2)));
+        canvas.put(mark.avoided(0.2));
         let far = long + canvas.mm(2.0);
         for (name, at) in [("x", origin.moved(far, 0.0)), ("y", origin.moved(0.0, -far))] {
-            let label = Label::new(name.into(), theme.ink, vec![at], 0);
-            canvas.label(Label { symbol: Some(Symbol::new(name, Accent::None, "")), fixed: Some(at), ..label });
+            let label = Label::at(at, name.into(), theme.ink, 0);
+            canvas.label(Label { symbol: Some(Symbol::new(name, Accent::None, "")), ..label });
         }
     }
 

@@ -28,8 +28,8 @@ pub(crate) enum How {
     Slip(f64, Option<Point>),
 }
 
-/// Returns the hinges and the slips of a fall.
-pub(crate) fn giving<'a>(fall: &Fall<'a>) -> Vec<Gives<'a>> {
+/// Draws the hinges and the slips of a fall. The legend explains the slips of the joints `all`.
+pub(crate) fn draw_fall(canvas: &mut Canvas<'_>, fall: &Fall<'_>, all: &[Joint]) {
     let one = |joint: &Joint| {
         let how = match joint.hinge {
             Some(at) => How::Hinge(at),
@@ -38,11 +38,12 @@ pub(crate) fn giving<'a>(fall: &Fall<'a>) -> Vec<Gives<'a>> {
         };
         Some(Gives { contact: &fall.found.contacts[joint.contact], how })
     };
-    fall.joints.iter().filter_map(one).collect()
+    let joints: Vec<Gives<'_>> = fall.joints.iter().filter_map(one).collect();
+    draw(canvas, &joints, ["hinge".to_owned(), slip_words(all).to_owned()]);
 }
 
 /// Returns what the legend says about the slips of these joints.
-pub(crate) fn slip_words(joints: &[Joint]) -> &'static str {
+fn slip_words(joints: &[Joint]) -> &'static str {
     let slides = || joints.iter().filter(|joint| joint.slip != 0.0);
     let tips = slides().filter(|joint| joint.touch.is_some()).count();
     match () {
@@ -53,9 +54,9 @@ pub(crate) fn slip_words(joints: &[Joint]) -> &'static str {
     }
 }
 
-/// Draws the hinges and slips of a collapse in a layer, on the bodies where these are drawn. `words` explain a hinge and
+/// Draws the hinges and slips of a collapse, on the bodies where these are drawn. `words` explain a hinge and
 /// a slip.
-pub(crate) fn draw(canvas: &mut Canvas<'_>, layer: Layer, joints: &[Gives<'_>], words: [String; 2]) {
+pub(crate) fn draw(canvas: &mut Canvas<'_>, joints: &[Gives<'_>], words: [String; 2]) {
     let [hinge_words, slip_words] = words;
     let start = PagePoint::new(0.0, 0.0);
     let symbol = ring(canvas, start.moved(canvas.mm(0.95), 0.0));
@@ -84,15 +85,15 @@ pub(crate) fn draw(canvas: &mut Canvas<'_>, layer: Layer, joints: &[Gives<'_>], 
                 ("slip", shapes, &slip_key, format!("{what} between {pair}"))
             }
         };
-        let mark = Mark::new(layer, class, shapes).titled(title).keyed(key);
-        canvas.put(mark.avoided(canvas.mm(0.15)));
+        let mark = Mark::new(Layer::Symbol, class, shapes).titled(title).keyed(key);
+        canvas.put(mark.avoided(0.15));
     }
 }
 
 /// Draws the ring of a hinge.
 fn ring(canvas: &Canvas<'_>, at: PagePoint) -> Vec<Path> {
     let (theme, edge) = (canvas.theme(), canvas.mm(0.34));
-    vec![Path::filled(Outline::circle(at, canvas.mm(0.85)), theme.page).with_stroke(Stroke::new(theme.ink, edge))]
+    vec![canvas.disc(at, 0.85, theme.page).with_stroke(Stroke::new(theme.ink, edge))]
 }
 
 /// Draws the two half arrows of a slip. The tangents of the joint on the two bodies are unit vectors on the page, with
@@ -109,7 +110,7 @@ fn half_arrows(canvas: &Canvas<'_>, at: PagePoint, tangents: [(f64, f64); 2], re
     };
     let lines = [1.0, -1.0].into_iter().zip(tangents).map(line);
     let drawn = |width: f64, ink: Colour| {
-        let stroke = Stroke::new(ink, canvas.mm(width)).mitred();
+        let stroke = canvas.pen(ink, width).mitred();
         lines.clone().map(move |line| Path::stroked(line, stroke.clone())).collect::<Vec<Path>>()
     };
     [drawn(0.8, theme.page), drawn(0.3, theme.ink)].concat()

@@ -12,12 +12,11 @@ use super::margin::ghosts;
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::stage;
-use super::{gives, load, sheet};
+use super::{gives, sheet};
 use crate::geometry::quarter_turn;
 use crate::mechanics::analysis::{Analysis, Influence, VehiclePosition, Verdict};
-use crate::pictures::drawing::{Drawing, Outline, PagePoint, Path, Stroke};
-use crate::products::wording::number::{quantity, three_down};
+use crate::pictures::drawing::{Drawing, Outline, PagePoint, Path};
+use crate::products::wording::number::three_down;
 use crate::products::wording::question::{vehicle_factor, vehicle_position};
 use crate::products::wording::verdict;
 
@@ -37,17 +36,15 @@ pub(crate) struct InfluenceLine;
 
 impl Figure for InfluenceLine {
     fn about(&self) -> About {
-        About {
-            name: "influence",
-            help: "The load factor for each position of the vehicle, and how the structure falls at the governing one",
-            title: "A vehicle on a dry-laid structure",
-            states_own_margin: true,
-            ..About::default()
-        }
+        About::new(
+            "influence",
+            "The load factor for each position of the vehicle, and how the structure falls at the governing one",
+            "A vehicle on a dry-laid structure",
+        )
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
+        let (scene, found) = analysis.at(frame);
         match (&found.vehicle, found.verdict) {
             (Some(influence), _) => {
                 let Some(own) = shown(influence, options.motion_progress) else {
@@ -64,24 +61,18 @@ impl Figure for InfluenceLine {
         }
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
-        stage::ground(canvas);
-        stage::blocks(canvas);
-        stage::held(canvas);
-        load::loads(canvas);
+    fn above(&self, canvas: &mut Canvas<'_>) {
         let (analysis, number) = (canvas.analysis, canvas.number);
         if let Some(influence) = &canvas.found().vehicle {
             if canvas.options.motion_progress >= 1.0 && !influence.mechanism.is_empty() {
                 let fall = Fall::with(analysis, number, &influence.mechanism);
                 ghosts(canvas, &fall);
-                let words = ["hinge".to_owned(), gives::slip_words(&fall.joints).to_owned()];
-                gives::draw(canvas, Layer::Symbol, &gives::giving(&fall), words);
+                gives::draw_fall(canvas, &fall, &fall.joints);
             }
             let position = shown(influence, canvas.options.motion_progress);
             vehicle(canvas, position);
             line(canvas, influence, position);
         }
-        stage::names(canvas);
     }
 }
 
@@ -113,9 +104,9 @@ fn vehicle(canvas: &mut Canvas<'_>, position: Option<&VehiclePosition>) {
         let from = tip.moved(-down.0 * length, -down.1 * length);
         let size = ArrowSize { length, ..load_size(canvas) };
         let size = ArrowSize { head: (size.head.0, size.head.1.min(0.6 * length)), ..size };
-        let words = quantity(weight, canvas.scene().units().force());
+        let words = canvas.newtons(weight);
         let mark = Mark::new(Layer::Load, "axle", vec![hollow(canvas, size.outline(from, down), ink)]).keyed(&key);
-        canvas.put(mark.titled(format!("Axle {}: {words}", number + 1)).avoided(canvas.mm(0.2)));
+        canvas.put(mark.titled(format!("Axle {}: {words}", number + 1)).avoided(0.2));
         if canvas.options.main_amounts {
             canvas.label(Label::new(words, ink, vec![from], 20));
         }
@@ -140,13 +131,13 @@ fn line(canvas: &mut Canvas<'_>, influence: &Influence, position: Option<&Vehicl
     // While only the last axles are on the structure, the first one is beyond it.
     let is_over = |own: &VehiclePosition| (left - 1e-3..=right + 1e-3).contains(&x(own.at));
     let level = |factor: f64| Outline::line([PagePoint::new(left, y(factor)), PagePoint::new(right, y(factor))]);
-    let thin = Stroke::new(theme.faint, canvas.mm(0.16));
+    let thin = canvas.pen(theme.faint, 0.16);
     canvas.put(Mark::new(Layer::Symbol, "axis", vec![Path::stroked(level(0.0), thin.clone())]).avoided(0.0));
-    let one = thin.dashed([canvas.mm(0.6), canvas.mm(0.5)]);
+    let one = canvas.dashes(theme.faint, 0.16, [0.6, 0.5]);
     canvas.put(Mark::new(Layer::Symbol, "axis", vec![Path::stroked(level(1.0), one)]).avoided(0.0));
     for factor in [0.0, 1.0] {
         let middle = PagePoint::new(left - canvas.mm(1.5), y(factor));
-        canvas.label(Label { fixed: Some(middle), ..Label::new(three_down(factor), theme.faint, vec![middle], 1) });
+        canvas.label(Label::at(middle, three_down(factor), theme.faint, 1));
     }
     let long = canvas.mm(4.8);
     let cut = format!("load factor over the first axle, cut off at {}", three_down(top));
@@ -156,22 +147,20 @@ fn line(canvas: &mut Canvas<'_>, influence: &Influence, position: Option<&Vehicl
         if own.is_empty() {
             continue;
         }
-        let mut stroke = Stroke::new(theme.ink, canvas.mm(0.35));
+        let mut stroke = canvas.pen(theme.ink, 0.35);
         if !to_right {
             stroke = stroke.dashed([canvas.mm(1.0), canvas.mm(0.7)]);
         }
         let key = Key::line(if to_right { 14 } else { 15 }, words, long, stroke.clone());
         let path = Path::stroked(Outline::line(own.iter().map(|own| point(own))), stroke);
-        canvas.put(Mark::new(Layer::Symbol, "influence", vec![path]).keyed(&key).avoided(canvas.mm(0.2)));
+        canvas.put(Mark::new(Layer::Symbol, "influence", vec![path]).keyed(&key).avoided(0.2));
     }
     if let Some(position) = position.filter(|own| is_over(own)) {
         let at = point(position);
-        let dot = Path::filled(Outline::circle(at, canvas.mm(0.8)), theme.failure);
+        let dot = canvas.disc(at, 0.8, theme.failure);
         let words = position.factor.map_or("no limit".to_owned(), three_down);
-        canvas.put(Mark::new(Layer::Symbol, "governing", vec![dot]).titled(words.clone()).avoided(canvas.mm(0.2)));
-        let mut label = Label::new(words, theme.ink, vec![at], 0);
-        label.bold = true;
-        canvas.label(label);
+        canvas.put(Mark::new(Layer::Symbol, "governing", vec![dot]).titled(words.clone()).avoided(0.2));
+        canvas.label(Label { bold: true, ..Label::new(words, theme.ink, vec![at], 0) });
     }
 }
 

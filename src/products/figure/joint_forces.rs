@@ -19,7 +19,7 @@ use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::analysis::{ActingForce, Contact, Failure, FrameAnalysis, Motion};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::pictures::drawing::difference::lightness;
-use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
+use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Theme};
 use crate::products::wording::failure::pair;
 use crate::products::wording::margin::{Governing, governing};
 use crate::products::wording::number::{force, quantity, round_below_in};
@@ -72,10 +72,12 @@ impl Figure for JointForces {
 /// Returns the name, the description and the requirements of the figure of forces, in both looks.
 pub(crate) fn about() -> About {
     About {
-        name: "forces",
-        help: "Every force at a joint as a mark in its place, and every missing force",
-        title: "Forces in a dry-laid structure",
-        ..About::default()
+        states_margin: true,
+        ..About::new(
+            "forces",
+            "Every force at a joint as a mark in its place, and every missing force",
+            "Forces in a dry-laid structure",
+        )
     }
 }
 
@@ -216,7 +218,7 @@ fn joints(canvas: &mut Canvas<'_>) {
         let is_tick = ticks >= EXPLAINED_TICKS && half < 0.999 * look.mm(TICK);
         let mut drawn = Mark::new(Layer::Force, "force", vec![path]).titled(title);
         drawn = drawn.keyed(if is_tick { &tick_key } else { &force_key });
-        canvas.put(if half > look.mm(0.8) { drawn.avoided(look.mm(0.15)) } else { drawn });
+        canvas.put(if half > look.mm(0.8) { drawn.avoided(0.15) } else { drawn });
     }
     let few = canvas.frame().placed.len() <= MAX_AMOUNT_BLOCKS;
     let labelled = if canvas.options.amounts && few { all.len() } else { 1 };
@@ -231,12 +233,12 @@ fn joints(canvas: &mut Canvas<'_>) {
 
 /// Asks for the amount of a force: below the hatching if it acts on the ground, otherwise beside its mark.
 fn label(canvas: &mut Canvas<'_>, one: &Drawn<'_>, rank: u8, most: f64) {
-    if !(canvas.options.labels && canvas.options.main_amounts) {
+    if !canvas.states_amounts() {
         return;
     }
     let half = (canvas.scale * one.newtons).max(canvas.mm(0.4));
-    let words = quantity(one.newtons, canvas.scene().units.force());
-    let size = canvas.look.text * canvas.theme().sizes.amount;
+    let words = canvas.newtons(one.newtons);
+    let size = canvas.label_size();
     let below = one.at.moved(0.0, canvas.mm(1.3 + 0.35 + 0.15) + 0.39 * size);
     let under = !one.both && one.u.1 < -0.5 && canvas.scene().lattice.is_none();
     let ink = tint(canvas.theme(), if rank == 3 { 1.0 } else { one.newtons / most });
@@ -289,12 +291,11 @@ fn weights(canvas: &mut Canvas<'_>) -> bool {
     }
     let down = direction(pull);
     let arrow = |canvas: &Canvas<'_>, at: PagePoint, u: (f64, f64), length: f64| {
-        let head = (canvas.mm(1.15), canvas.mm(1.5).min(0.6 * length));
-        let shaft = ArrowSize { length, shaft: canvas.mm(0.32), head }.outline(at, u);
-        let ring = Stroke::new(theme.ink, canvas.mm(0.28));
+        let shaft = canvas.arrow(length, [0.32, 1.15, 1.5], 0.6).outline(at, u);
+        let ring = canvas.pen(theme.ink, 0.28);
         vec![
             Path::filled(shaft, theme.ink).cased(theme.page, canvas.mm(0.15)),
-            Path::filled(Outline::circle(at, canvas.mm(0.55)), theme.page).with_stroke(ring),
+            canvas.disc(at, 0.55, theme.page).with_stroke(ring),
         ]
     };
     let symbol = arrow(canvas, PagePoint::new(canvas.mm(0.7), 0.0), (1.0, 0.0), canvas.mm(4.0));
@@ -304,7 +305,7 @@ fn weights(canvas: &mut Canvas<'_>) -> bool {
         let shapes = arrow(canvas, canvas.place(block.centroid), down, length);
         let amount = force(pull * (block.weight / pull.norm()), scene.units);
         let title = format!("Weight of block {}: {amount}", block.id);
-        canvas.put(Mark::new(Layer::Symbol, "weight", shapes).titled(title).keyed(&key).avoided(canvas.mm(0.3)));
+        canvas.put(Mark::new(Layer::Symbol, "weight", shapes).titled(title).keyed(&key).avoided(0.3));
     }
     true
 }
@@ -330,8 +331,7 @@ pub(crate) fn missing(canvas: &mut Canvas<'_>) {
     let stated = round_below_in(largest.min(look.mm(10.0) / scale), scene.units.force());
     let states_scale = largest > 0.0 && !canvas.options.printed();
     let width = if states_scale { scale * stated } else { look.mm(4.4) };
-    let words =
-        if states_scale { format!("{} missing", quantity(stated, scene.units.force())) } else { "missing".into() };
+    let words = if states_scale { format!("{} missing", canvas.newtons(stated)) } else { "missing".into() };
     let symbol = Path::filled(arrow(width).outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink);
     let key = Key::new(50, words, vec![symbol], width);
     let mut order: Vec<&Failure> = found.failures.iter().collect();
@@ -363,12 +363,12 @@ pub(crate) fn missing(canvas: &mut Canvas<'_>) {
             };
             let anchors = [-3.0, 3.0, -1.5, 1.5].map(|d| along(at, u, look.mm(d), 0.0));
             let anchors = std::iter::once(at).chain(anchors).collect();
-            (force(missing, scene.units), shapes, anchors, quantity(norm, scene.units.force()))
+            (force(missing, scene.units), shapes, anchors, canvas.newtons(norm))
         } else {
             continue;
         };
         let title = format!("{}: {what}", named(scene, failure));
-        canvas.put(Mark::new(Layer::Missing, "missing", shapes).titled(title).keyed(&key).avoided(look.mm(0.2)));
+        canvas.put(Mark::new(Layer::Missing, "missing", shapes).titled(title).keyed(&key).avoided(0.2));
         if number < MAX_MISSING_AMOUNTS {
             stage::amount(canvas, amount, ink, (anchors, 1), None);
         }
@@ -408,7 +408,7 @@ pub(crate) fn collapse(canvas: &mut Canvas<'_>) {
     let joints = giving(canvas.scene(), found, &governing);
     if joints.len() <= MAX_COLLAPSE_MARKS {
         // A force is longer than a ring is wide, so the force still shows on both sides of the ring.
-        gives::draw(canvas, Layer::Symbol, &joints, [format!("hinge{at}"), format!("slides{at}")]);
+        gives::draw(canvas, &joints, [format!("hinge{at}"), format!("slides{at}")]);
     }
 }
 

@@ -3,12 +3,12 @@
 
 use std::rc::Rc;
 
-use super::bearing::{Bearing, bearings};
+use super::bearing::{Bearing, pressed};
 use super::canvas::Canvas;
-use super::design::{Key, Layer, Mark, unit};
+use super::design::{Key, Layer, Mark};
 use super::option::Options;
 use super::panel::{About, Figure};
-use super::{load, stage, verdict};
+use super::verdict;
 use crate::geometry::Point;
 use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
@@ -30,13 +30,11 @@ pub(crate) struct Kernel;
 
 impl Figure for Kernel {
     fn about(&self) -> About {
-        About {
-            name: "kernel",
-            help: "The safe part of each interface, and the position of the resultant in it",
-            title: "Resultants in the safe parts of interfaces",
-            states_own_margin: true,
-            ..About::default()
-        }
+        About::new(
+            "kernel",
+            "The safe part of each interface, and the position of the resultant in it",
+            "Resultants in the safe parts of interfaces",
+        )
     }
 
     fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
@@ -44,7 +42,7 @@ impl Figure for Kernel {
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
-        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
+        let (scene, found) = analysis.at(frame);
         match found.verdict {
             Verdict::Unstable => vec!["no resultants, because no forces balance the structure".into()],
             Verdict::Undecided => vec![format!("no resultants; {}", reason(scene, found))],
@@ -53,22 +51,10 @@ impl Figure for Kernel {
         }
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
-        stage::ground(canvas);
-        stage::blocks(canvas);
+    fn below(&self, canvas: &mut Canvas<'_>) {
         safe_parts(canvas);
         resultants(canvas);
-        stage::held(canvas);
-        load::loads(canvas);
-        stage::names(canvas);
     }
-}
-
-/// Returns the width of the line of a safe part, in pixels.
-fn bold(canvas: &Canvas<'_>) -> f64 {
-    let (width, least, most) = SAFE_LINE_WIDTH;
-    let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
-    (width * unit).clamp(canvas.mm(least), canvas.mm(most))
 }
 
 fn rest_stroke(theme: &Theme, bold: f64) -> Stroke {
@@ -77,7 +63,7 @@ fn rest_stroke(theme: &Theme, bold: f64) -> Stroke {
 
 /// Draws the safe part of each interface as a solid line, and the unsafe parts as dashed lines.
 fn safe_parts(canvas: &mut Canvas<'_>) {
-    let (scene, theme, bold) = (canvas.scene(), canvas.theme(), bold(canvas));
+    let (scene, theme, bold) = (canvas.scene(), canvas.theme(), canvas.in_units(SAFE_LINE_WIDTH));
     let key = |rank: u8, words: String, stroke: Stroke| Key::line(rank, words, canvas.mm(KEY_LENGTH), stroke);
     let safe = Stroke::new(theme.safe, bold).mitred();
     let safe_key = key(10, "safe part of an interface".into(), safe.clone());
@@ -109,7 +95,7 @@ fn safe_parts(canvas: &mut Canvas<'_>) {
             Path::filled(Outline::circle(points[0], 0.9 * bold), theme.safe)
         });
         let mark = Mark::new(Layer::Force, "interface", shapes).titled(title);
-        canvas.put(mark.keyed(&safe_key).avoided(canvas.mm(0.2)));
+        canvas.put(mark.keyed(&safe_key).avoided(0.2));
     }
 }
 
@@ -125,7 +111,7 @@ fn resultants(canvas: &mut Canvas<'_>) {
     if found.verdict != Verdict::Stable {
         return;
     }
-    let radius = 0.5 * bold(canvas) + canvas.mm(0.25);
+    let radius = 0.5 * canvas.in_units(SAFE_LINE_WIDTH) + canvas.mm(0.25);
     let shape = |at: PagePoint, bearing: &Bearing| -> (Outline, Colour) {
         if !at_end(bearing) {
             return (Outline::circle(at, radius), theme.ink);
@@ -143,17 +129,16 @@ fn resultants(canvas: &mut Canvas<'_>) {
     };
     let within_key = key(20, "resultant", 0.0);
     let end_key = key(21, "resultant at an end of the safe part", 1.0);
-    for (contact, bearing) in found.contacts.iter().zip(bearings(scene, found)) {
-        let Some(bearing) = bearing else { continue };
+    for (contact, bearing) in pressed(scene, found) {
         let (outline, ink) = shape(canvas.place(contact.resultant.at), &bearing);
         let pair = pair(scene, contact.interface.bodies);
-        let amount = quantity(contact.amount(), scene.units.force());
+        let amount = canvas.newtons(contact.amount());
         let place = bearing.eccentricity.map_or(String::new(), |share| {
             format!(", {} of the way from the middle to the end of the safe part", percent(share))
         });
         let path = Path::filled(outline, ink).cased(theme.page, 0.28 * radius);
         let mark = Mark::new(Layer::Force, "resultant", vec![path]);
-        let mark = mark.titled(format!("Resultant between {pair}: {amount}{place}")).avoided(canvas.mm(0.2));
+        let mark = mark.titled(format!("Resultant between {pair}: {amount}{place}")).avoided(0.2);
         canvas.put(mark.keyed(if at_end(&bearing) { &end_key } else { &within_key }));
     }
 }

@@ -183,9 +183,7 @@ impl Kind {
     /// Returns the margins that the line of the verdict of a figure of one frame gives, if they are cheap.
     #[cfg(any(feature = "cli", feature = "wasm"))]
     fn line_margins(self, scene: &Scene, options: &Options) -> Option<MarginKinds> {
-        let about = self.about();
-        let hides = about.hides_verdicts || about.shows_one_block || about.states_own_margin;
-        let states = options.verdict_margin && !hides && scene.frames.len() == 1;
+        let states = options.verdict_margin && self.about().states_margin && scene.frames.len() == 1;
         states.then(|| cheap_margins(scene)).flatten()
     }
 

@@ -7,7 +7,7 @@ use super::design::{ArrowSize, Key, Layer, Mark, along, direction};
 use super::stage;
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::{BodyId, Load, Scene};
-use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke};
+use crate::pictures::drawing::{Colour, Outline, PagePoint, Path};
 use crate::products::wording::number::{force, quantity};
 
 /// At most about this many loads have amounts, the largest.
@@ -43,7 +43,7 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
     let size = ArrowSize { length: canvas.mm(5.0), ..load_size(canvas) };
     let mut symbol = vec![hollow(canvas, size.outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink)];
     if loads.iter().any(|load| load.force.norm() > 0.0 && acts_inside(canvas, load)) {
-        symbol.push(Path::filled(Outline::circle(PagePoint::new(canvas.mm(5.0), 0.0), canvas.mm(0.5)), ink));
+        symbol.push(canvas.disc(PagePoint::new(canvas.mm(5.0), 0.0), 0.5, ink));
     }
     let key = Key::new(LOAD_RANK, words, symbol, canvas.mm(5.5));
     for load in &loads {
@@ -63,7 +63,7 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
             let here = turns.filter(|other| other.torque != 0.0 && (other.at - load.at).norm() < 1e-6).count();
             let radius = 2.6 + 1.5 * here as f64;
             let mark = stage::torque(canvas, at, load.torque, (radius, 0.45), ink);
-            canvas.put(Mark::new(Layer::Load, "torque", mark).titled(title).avoided(canvas.mm(0.2)));
+            canvas.put(Mark::new(Layer::Load, "torque", mark).titled(title).avoided(0.2));
             let side = at.moved(canvas.mm(radius + 0.4), 0.0);
             let words = named(scene, load, quantity(load.torque.abs(), units));
             stage::amount(canvas, words, ink, (vec![side], 0), Some((0.0, -1.0)));
@@ -83,7 +83,7 @@ pub(super) fn load_size(canvas: &Canvas<'_>) -> ArrowSize {
 }
 
 pub(super) fn hollow(canvas: &Canvas<'_>, outline: Outline, ink: Colour) -> Path {
-    Path::filled(outline, canvas.theme().page).with_stroke(Stroke::new(ink, canvas.mm(0.32)).mitred())
+    Path::filled(outline, canvas.theme().page).with_stroke(canvas.pen(ink, 0.32).mitred())
 }
 
 fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>, has_amount: bool) {
@@ -101,17 +101,17 @@ fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>, has
     let outline = ArrowSize { length, ..load_size(canvas) }.outline(tail, u);
     let mut shapes = vec![hollow(canvas, outline, ink)];
     if acts_inside(canvas, load) {
-        shapes.push(Path::filled(Outline::circle(at, canvas.mm(0.5)), ink));
+        shapes.push(canvas.disc(at, 0.5, ink));
     }
     let title = format!("Load on block {}: {}", scene.name(BodyId::Block(load.block)), force(load.force, scene.units));
-    canvas.put(Mark::new(Layer::Load, "load", shapes).titled(title).keyed(key).avoided(canvas.mm(0.2)));
+    canvas.put(Mark::new(Layer::Load, "load", shapes).titled(title).keyed(key).avoided(0.2));
     if !has_amount {
         return;
     }
     let far = if ends { tail } else { along(at, u, length, 0.0) };
     let away = if ends { (-u.0, -u.1) } else { u };
     let anchors = vec![far, along(tail, u, length / 2.0, 0.0)];
-    stage::amount(canvas, named(scene, load, quantity(norm, scene.units.force())), ink, (anchors, 0), Some(away));
+    stage::amount(canvas, named(scene, load, canvas.newtons(norm)), ink, (anchors, 0), Some(away));
 }
 
 /// Writes the id of a load, if the file gives one, before its amount.
@@ -189,12 +189,12 @@ pub(crate) fn diagrams(canvas: &mut Canvas<'_>) {
         }));
         let outline = Outline::ring([feet[0], feet[1], tips[1], tips[0]]);
         let shapes = vec![
-            Path::filled(outline, fill).with_stroke(Stroke::new(ink, canvas.mm(0.18)).mitred()),
-            Path::stroked(lines, Stroke::new(ink, canvas.mm(0.14))),
+            Path::filled(outline, fill).with_stroke(canvas.pen(ink, 0.18).mitred()),
+            Path::stroked(lines, canvas.pen(ink, 0.14)),
         ];
         let unit = scene.units.force();
         let [first, last] = spread.force.map(|force| quantity(force.norm(), unit));
         let title = format!("Pressure on block {}: {first} to {last} per metre", scene.name(body));
-        canvas.put(Mark::new(Layer::Load, "pressure", shapes).titled(title).avoided(canvas.mm(0.2)));
+        canvas.put(Mark::new(Layer::Load, "pressure", shapes).titled(title).avoided(0.2));
     }
 }

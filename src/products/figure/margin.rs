@@ -7,16 +7,16 @@
 //! show the values at both ends. Loads are drawn with their present magnitudes.
 
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, around, direction, moved_edge, small_block, unit};
+use super::design::{Key, Layer, Mark, around, direction, moved_edge, unit};
 use super::displacement::Course;
 use super::fall::Fall;
+use super::gives;
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::{gives, load, stage};
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
 use crate::mechanics::analysis::{Analysis, End, Toward, Verdict};
-use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, Path, Stroke, text};
+use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, Path, text};
 use crate::products::wording::margin::{Parameter, stated};
 
 /// Length of the longest of the arrows that show gravity or a horizontal load, mm.
@@ -30,12 +30,12 @@ pub(crate) struct CollapseMargin;
 impl Figure for CollapseMargin {
     fn about(&self) -> About {
         About {
-            name: "margin",
-            help: "The structure, and how it falls just beyond its margin; --margin selects the margin",
-            title: "How far a dry-laid structure is from falling",
             needs_margins: true,
-            states_own_margin: true,
-            ..About::default()
+            ..About::new(
+                "margin",
+                "The structure, and how it falls just beyond its margin; --margin selects the margin",
+                "How far a dry-laid structure is from falling",
+            )
         }
     }
 
@@ -51,22 +51,16 @@ impl Figure for CollapseMargin {
         }]
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
+    fn above(&self, canvas: &mut Canvas<'_>) {
         let (analysis, frame, toward) = (canvas.analysis, canvas.number, canvas.options.toward);
-        stage::ground(canvas);
-        stage::blocks(canvas);
-        stage::held(canvas);
-        load::loads(canvas);
         let stands = canvas.found().verdict == Verdict::Stable;
         let edge = canvas.own().edge.get_or_init(|| analysis.edge(frame, toward).filter(|_| stands));
         if let Some((edge, motions)) = edge {
             let fall = Fall::with(analysis, frame, motions);
             ghosts(canvas, &fall);
-            let words = ["hinge".to_owned(), gives::slip_words(&fall.joints).to_owned()];
-            gives::draw(canvas, Layer::Symbol, &gives::giving(&fall), words);
+            gives::draw_fall(canvas, &fall, &fall.joints);
             gravity(canvas, *edge);
         }
-        stage::names(canvas);
     }
 }
 
@@ -83,18 +77,16 @@ fn parameter(toward: Toward) -> Parameter {
 pub(super) fn ghosts(canvas: &mut Canvas<'_>, fall: &Fall<'_>) {
     let unit = unit(fall.scene, canvas.options.zoom);
     let course = &canvas.own().courses.get_or_init(|| vec![Course::new(fall, unit)])[0];
-    let edge = Stroke::new(moved_edge(canvas.theme()), canvas.mm(0.24));
+    let edge = canvas.pen(moved_edge(canvas.theme()), 0.24);
     let mut outline = Outline::default();
     for (block, displacement) in fall.scene.blocks.iter().zip(course.at(1.0)) {
         if let Some(displacement) = displacement {
             outline.extend(canvas.camera.polygon(&displacement.polygon(&block.body.polygon)));
         }
     }
-    let (swatch, width) = small_block(canvas.look);
-    let symbol = vec![Path::stroked(swatch, edge.clone())];
-    let key = Key::new(10, "how it begins to fall", symbol, width);
+    let key = Key::block(10, "how it begins to fall", canvas.look, |small| vec![Path::stroked(small, edge.clone())]);
     let mark = Mark::new(Layer::Force, "ghosts", vec![Path::stroked(outline, edge)]).keyed(&key);
-    canvas.put(mark.titled("How it would begin to fall").avoided(canvas.mm(0.1)));
+    canvas.put(mark.titled("How it would begin to fall").avoided(0.1));
 }
 
 /// Draws the arrows to the left of the structure: a dashed line in the present direction of gravity, and the turned
@@ -126,7 +118,7 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
     let start = PagePoint::new(0.0, 0.0);
     let Some(own) = around(vectors.iter().map(|v| tip(start, *v)).chain([start])) else { return };
     // The amounts stand below the arrows.
-    let size = canvas.look.text * theme.sizes.amount;
+    let size = canvas.label_size();
     let words: Vec<String> = values.iter().map(|(value, _)| parameter(toward).end(*value, *value >= 0.0)).collect();
     let wide = words.iter().map(|words| text::width(words, Face::Sans, size)).fold(own.width, f64::max);
     let left = canvas.extent().at.x - canvas.mm(GRAVITY_DISTANCE) - wide;
@@ -134,11 +126,10 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
     let mut below = PagePoint::new(left + wide / 2.0, from.y + own.at.y + own.height + canvas.mm(1.0) + 0.5 * size);
     let shape = |canvas: &Canvas<'_>, from: PagePoint, v: Vector, scale: f64, ink: Colour| {
         let (long, u) = (scale * v.norm(), direction(v));
-        let head = (canvas.mm(1.5), canvas.mm(1.6).min(0.6 * long));
-        Path::filled(ArrowSize { length: long, shaft: canvas.mm(0.42), head }.outline(from, u), ink)
+        Path::filled(canvas.arrow(long, [0.42, 1.5, 1.6], 0.6).outline(from, u), ink)
     };
     let now = |canvas: &Canvas<'_>, from: PagePoint, to: PagePoint| {
-        let dashed = Stroke::new(theme.faint, canvas.mm(0.2)).dashed([canvas.mm(0.8), canvas.mm(0.6)]);
+        let dashed = canvas.dashes(theme.faint, 0.2, [0.8, 0.6]);
         Path::stroked(Outline::line([from, to]), dashed)
     };
     let long = canvas.mm(4.4);
@@ -158,10 +149,10 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
         Toward::HorizontalLoad => format!("In addition to gravity, {} of each weight", words[0]),
         _ => format!("Gravity turned by {}", words[0]),
     };
-    canvas.put(Mark::new(Layer::Missing, "gravity", shapes).titled(title).keyed(&key).avoided(canvas.mm(0.2)));
+    canvas.put(Mark::new(Layer::Missing, "gravity", shapes).titled(title).keyed(&key).avoided(0.2));
     for (words, (_, ink)) in words.into_iter().zip(values) {
-        if canvas.options.labels && canvas.options.main_amounts {
-            canvas.label(Label { fixed: Some(below), ..Label::new(words, ink, vec![below], 0) });
+        if canvas.states_amounts() {
+            canvas.label(Label::at(below, words, ink, 0));
         }
         below = below.moved(0.0, 1.2 * size);
     }

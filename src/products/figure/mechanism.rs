@@ -11,12 +11,12 @@
 use std::collections::BTreeMap;
 
 use super::canvas::Canvas;
-use super::design::{Key, Layer, Mark, moved_edge, small_block, unit};
+use super::design::{Key, Layer, Mark, moved_edge, unit};
 use super::displacement::Course;
 use super::fall::{Fall, Joint};
 use super::option::Options;
 use super::panel::{About, Figure};
-use super::{collapse, description, gives, load, stage};
+use super::{collapse, description, gives};
 use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId};
 use crate::pictures::drawing::{Outline, Path, Stroke};
@@ -32,12 +32,12 @@ pub(crate) struct Mechanism;
 impl Figure for Mechanism {
     fn about(&self) -> About {
         About {
-            name: "mechanism",
-            help: "How the structure falls: blocks displaced along the mechanism, hinges and slips",
-            title: "How a dry-laid structure falls",
             needs_elementary_mechanisms: true,
-            states_own_margin: true,
-            ..About::default()
+            ..About::new(
+                "mechanism",
+                "How the structure falls: blocks displaced along the mechanism, hinges and slips",
+                "How a dry-laid structure falls",
+            )
         }
     }
 
@@ -67,7 +67,7 @@ impl Figure for Mechanism {
         lack.into_iter().chain([collapse::reason(analysis, frame)]).collect()
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
+    fn displace(&self, canvas: &mut Canvas<'_>) {
         let (analysis, frame) = (canvas.analysis, canvas.number);
         let unit = unit(canvas.scene(), canvas.options.zoom);
         let courses = canvas.own().courses.get_or_init(|| {
@@ -75,34 +75,33 @@ impl Figure for Mechanism {
             vec![if canvas.options.film { Course::far(&fall, unit) } else { Course::new(&fall, unit) }]
         });
         canvas.displaced = courses[0].at(canvas.options.motion_progress);
-        stage::ground(canvas);
-        stage::blocks(canvas);
+    }
+
+    fn below(&self, canvas: &mut Canvas<'_>) {
         ghosts(canvas);
         displaced(canvas);
-        stage::held(canvas);
-        load::loads(canvas);
+    }
+
+    fn above(&self, canvas: &mut Canvas<'_>) {
+        let (analysis, frame) = (canvas.analysis, canvas.number);
         if canvas.found().verdict == Verdict::Unstable {
             let all: Vec<Joint> =
                 (0..analysis.frames.len()).flat_map(|frame| Fall::of(analysis, frame).joints).collect();
-            let words = ["hinge".to_owned(), gives::slip_words(&all).to_owned()];
-            gives::draw(canvas, Layer::Symbol, &gives::giving(&Fall::of(analysis, frame)), words);
+            gives::draw_fall(canvas, &Fall::of(analysis, frame), &all);
         }
-        stage::names(canvas);
     }
 }
 
 /// Returns the stroke of what moves in its present position.
 pub(super) fn present_edge(canvas: &Canvas<'_>) -> Stroke {
-    Stroke::new(canvas.theme().faint, canvas.mm(0.16)).dashed([canvas.mm(0.6), canvas.mm(0.5)])
+    canvas.dashes(canvas.theme().faint, 0.16, [0.6, 0.5])
 }
 
 /// Draws dashed outlines of the moving blocks in their present positions.
 pub(super) fn ghosts(canvas: &mut Canvas<'_>) {
     let scene = canvas.scene();
     let stroke = present_edge(canvas);
-    let (swatch, width) = small_block(canvas.look);
-    let symbol = vec![Path::stroked(swatch, stroke.clone())];
-    let key = Key::new(10, "blocks now", symbol, width);
+    let key = Key::block(10, "blocks now", canvas.look, |small| vec![Path::stroked(small, stroke.clone())]);
     let mut outline = Outline::default();
     for id in canvas.frame().placed.iter().filter(|id| canvas.displacement(**id).is_some()) {
         outline.extend(canvas.camera.polygon(&scene.blocks[id.0].body.polygon));
@@ -141,13 +140,12 @@ pub(super) fn displaced_blocks<T>(
     described: impl Fn(T, Mark) -> Mark,
 ) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
-    let edge = Stroke::new(moved_edge(theme), canvas.mm(if canvas.look.large { 0.26 } else { 0.2 }));
+    let edge = canvas.pen(moved_edge(theme), if canvas.look.large { 0.26 } else { 0.2 });
     let drawn = |outline: Outline| {
         let fill = Path::filled(outline.clone(), theme.motion).with_opacity(OPACITY);
         vec![fill, Path::stroked(outline, edge.clone())]
     };
-    let (swatch, width) = small_block(canvas.look);
-    let key = Key::new(11, words, drawn(swatch), width);
+    let key = Key::block(11, words, canvas.look, drawn);
     for (id, item) in blocks {
         if canvas.displacement(id).is_none() {
             continue;

@@ -15,10 +15,9 @@ use super::mechanism::{displaced_blocks, ghosts, present_edge};
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::{load, stage};
 use crate::mechanics::analysis::{Analysis, Crack, Cracked, Motion, MovementOutcome, SupportMovement, Verdict};
 use crate::mechanics::scene::{Block, BlockId, BodyId, Movement, Scene};
-use crate::pictures::drawing::{Outline, Path, Stroke};
+use crate::pictures::drawing::{Outline, Path};
 use crate::products::wording::failure::pair;
 use crate::products::wording::number::{quantity, round_below_in, three};
 use crate::products::wording::question::{movement, movement_force, per_unit, without_state};
@@ -32,17 +31,15 @@ pub(crate) struct MovedSupport;
 
 impl Figure for MovedSupport {
     fn about(&self) -> About {
-        About {
-            name: "movement",
-            help: "How the structure cracks as a support moves; --movement selects one of several movements",
-            title: "How a dry-laid structure follows its support",
-            states_own_margin: true,
-            ..About::default()
-        }
+        About::new(
+            "movement",
+            "How the structure cracks as a support moves; --movement selects one of several movements",
+            "How a dry-laid structure follows its support",
+        )
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
+        let (scene, found) = analysis.at(frame);
         match (chosen(analysis, frame, options), found.verdict) {
             (Some(moved), _) => {
                 let pushes = match &moved.outcome {
@@ -59,22 +56,18 @@ impl Figure for MovedSupport {
         }
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
-        let moved = chosen(canvas.analysis, canvas.number, canvas.options);
-        if let Some((cracked, own)) = moved.and_then(|moved| state(canvas.scene(), moved)) {
+    fn displace(&self, canvas: &mut Canvas<'_>) {
+        if let Some((cracked, own)) = state(canvas) {
             displace(canvas, cracked, own);
-            stage::ground(canvas);
-            stage::blocks(canvas);
+        }
+    }
+
+    fn below(&self, canvas: &mut Canvas<'_>) {
+        if let Some((cracked, own)) = state(canvas) {
             ghosts(canvas);
             displaced(canvas, own);
             cracks(canvas, cracked);
-        } else {
-            stage::ground(canvas);
-            stage::blocks(canvas);
         }
-        stage::held(canvas);
-        load::loads(canvas);
-        stage::names(canvas);
     }
 }
 
@@ -87,9 +80,10 @@ fn chosen<'a>(analysis: &'a Analysis, frame: usize, options: &Options) -> Option
     }
 }
 
-fn state<'a>(scene: &'a Scene, moved: &'a SupportMovement) -> Option<(&'a Cracked, &'a Movement)> {
+fn state<'a>(canvas: &Canvas<'a>) -> Option<(&'a Cracked, &'a Movement)> {
+    let moved = chosen(canvas.analysis, canvas.number, canvas.options)?;
     match &moved.outcome {
-        MovementOutcome::Follows(cracked) => Some((cracked, scene.movements.get(moved.number)?)),
+        MovementOutcome::Follows(cracked) => Some((cracked, canvas.scene().movements.get(moved.number)?)),
         _ => None,
     }
 }
@@ -154,7 +148,7 @@ fn cracks(canvas: &mut Canvas<'_>, cracked: &Cracked) {
     };
     let joints: Vec<Gives<'_>> = cracked.cracks.iter().filter_map(one).collect();
     let words = ["hinge".to_owned(), "slides, and opens by friction × distance".to_owned()];
-    gives::draw(canvas, Layer::Symbol, &joints, words);
+    gives::draw(canvas, &joints, words);
     if !canvas.options.main_amounts {
         return;
     }
@@ -172,7 +166,7 @@ fn cracks(canvas: &mut Canvas<'_>, cracked: &Cracked) {
         canvas.label(label);
         let title = format!("{} open by {}", pair(canvas.scene(), contact.interface.bodies), per_unit(crack.opening));
         let line = Outline::line(contact.interface.bodies.map(|body| canvas.place_on(body, open)));
-        let stroke = Stroke::new(canvas.theme().ink, canvas.mm(0.2));
+        let stroke = canvas.pen(canvas.theme().ink, 0.2);
         canvas.put(Mark::new(Layer::Symbol, "opening", vec![Path::stroked(line, stroke)]).titled(title));
     }
 }

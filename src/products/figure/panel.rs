@@ -4,7 +4,7 @@
 use super::canvas::Canvas;
 use super::design::{Look, zoomed_view};
 use super::option::Options;
-use super::{stage, verdict};
+use super::{load, stage, verdict};
 use crate::geometry::{Bounds, Point};
 use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
 use crate::pictures::drawing::Group;
@@ -50,11 +50,10 @@ impl Subject {
             return Subject { frames, bounds, is_cut: true, block: (side, LARGEST_ZOOMED_BLOCK) };
         }
         let blocks = stage::shown_blocks(scene);
-        let polygons = || blocks.iter().map(|id| &scene.blocks[id.0].body.polygon);
+
         let ground = scene.ground.iter().map(|ground| ground.body.polygon.bounds());
         let origin = Bounds { min: Point::origin(), max: Point::origin() };
-        let bounds = polygons().map(|polygon| polygon.bounds()).reduce(Bounds::union);
-        let bounds = bounds.or_else(|| ground.reduce(Bounds::union)).unwrap_or(origin.grown(1.0));
+        let bounds = scene.bounds(&blocks).or_else(|| ground.reduce(Bounds::union)).unwrap_or(origin.grown(1.0));
         let last = scene.frames.last().map_or(&[][..], |frame| &frame.placed);
         let mut sizes: Vec<f64> = last.iter().map(|id| scene.blocks[id.0].body.polygon.area().sqrt()).collect();
         sizes.sort_by(f64::total_cmp);
@@ -69,8 +68,27 @@ pub(crate) trait Figure: Sync {
     /// Returns the name, the description and the requirements of this kind of figure.
     fn about(&self) -> About;
 
-    /// Draws the picture of a frame.
-    fn draw(&self, canvas: &mut Canvas<'_>);
+    /// Draws the picture of a frame: the ground, the blocks, the robots and the loads, and between and above them what
+    /// this kind of figure shows.
+    fn draw(&self, canvas: &mut Canvas<'_>) {
+        self.displace(canvas);
+        stage::ground(canvas);
+        stage::blocks(canvas);
+        self.below(canvas);
+        stage::held(canvas);
+        load::loads(canvas);
+        self.above(canvas);
+        stage::names(canvas);
+    }
+
+    /// Displaces the blocks that are not drawn where they stand.
+    fn displace(&self, _canvas: &mut Canvas<'_>) {}
+
+    /// Draws what lies below the robots and the loads.
+    fn below(&self, _canvas: &mut Canvas<'_>) {}
+
+    /// Draws what lies above the robots and the loads.
+    fn above(&self, _canvas: &mut Canvas<'_>) {}
 
     /// Returns the one scale of all forces of the figure, pixels per newton; 0 if the figure draws no forces of
     /// contacts.
@@ -136,7 +154,7 @@ pub(crate) fn caption(analysis: &Analysis, frame: usize, options: &Options) -> S
 
 /// Returns the headline margin of a frame, or what decides if no margin does.
 pub(crate) fn margin_words(analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-    let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
+    let (scene, found) = analysis.at(frame);
     let unexplained =
         found.verdict == Verdict::Undecided || found.verdict == Verdict::Unstable && found.failures.is_empty();
     // The panels of a strip are too narrow for margins.
@@ -181,8 +199,15 @@ pub(crate) struct About {
     pub shares_arrow_scale: bool,
     /// Whether the figure shows no verdicts, independent of the options.
     pub hides_verdicts: bool,
-    /// Whether the line of the verdict states another margin than the headline margin.
-    pub states_own_margin: bool,
+    /// Whether the line of the verdict states the headline margin.
+    pub states_margin: bool,
     /// Whether the figure shows only the block that the options name, in one frame.
     pub shows_one_block: bool,
+}
+
+impl About {
+    /// Names a kind without requirements.
+    pub fn new(name: &'static str, help: &'static str, title: &'static str) -> About {
+        About { name, help, title, ..About::default() }
+    }
 }

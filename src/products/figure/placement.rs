@@ -6,11 +6,10 @@ use super::design::{Key, Layer, Mark};
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::{load, stage};
 use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::analysis::{Analysis, Placement, Verdict};
 use crate::mechanics::scene::Scene;
-use crate::pictures::drawing::{Outline, PagePoint, Path, Stroke};
+use crate::pictures::drawing::{Outline, PagePoint, Path};
 use crate::products::wording::number::{digits, round_below, three_down, three_up};
 use crate::products::wording::question::{placement_length, placement_proved};
 use crate::products::wording::verdict;
@@ -35,17 +34,17 @@ pub(crate) struct PlacementTolerance;
 impl Figure for PlacementTolerance {
     fn about(&self) -> About {
         About {
-            name: "placement",
-            help: "How far blocks may be off their places: each one alone, and the pattern of errors with which it falls",
-            title: "Placement tolerance of a dry-laid structure",
             needs_placement: true,
-            states_own_margin: true,
-            ..About::default()
+            ..About::new(
+                "placement",
+                "How far blocks may be off their places: each one alone, and the pattern of errors with which it falls",
+                "Placement tolerance of a dry-laid structure",
+            )
         }
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
-        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
+        let (scene, found) = analysis.at(frame);
         match (&found.placement, found.verdict) {
             (Some(placement), _) => sentences(scene, placement),
             (None, Verdict::Stable) => vec!["every block is in its place".into()],
@@ -54,16 +53,11 @@ impl Figure for PlacementTolerance {
         }
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
-        stage::ground(canvas);
-        stage::blocks(canvas);
+    fn below(&self, canvas: &mut Canvas<'_>) {
         if let Some(placement) = &canvas.found().placement {
             pattern(canvas, placement);
             whiskers(canvas, placement);
         }
-        stage::held(canvas);
-        load::loads(canvas);
-        stage::names(canvas);
     }
 }
 
@@ -85,8 +79,7 @@ fn pattern(canvas: &mut Canvas<'_>, placement: &Placement) {
     }
     let theme = canvas.theme();
     let factor = round_below(canvas.mm(SHOWN_ERROR) / canvas.camera.length(largest)).max(1.0);
-    let stroke =
-        Stroke::new(theme.faint.mixed(theme.page, 0.65), canvas.mm(0.2)).dashed([canvas.mm(0.9), canvas.mm(0.6)]);
+    let stroke = canvas.dashes(theme.faint.mixed(theme.page, 0.65), 0.2, [0.9, 0.6]);
     let words = match factor {
         1.0 => "centres off with which it falls; joint ends are off too".to_owned(),
         factor => format!("centres off with which it falls, × {}; joint ends are off too", digits(factor)),
@@ -108,7 +101,7 @@ fn whiskers(canvas: &mut Canvas<'_>, placement: &Placement) {
     let theme = canvas.theme();
     let gravity = canvas.scene().gravity;
     let side = quarter_turn(gravity).try_normalize(0.0).unwrap_or(Vector::new(1.0, 0.0));
-    let stroke = Stroke::new(theme.ink, canvas.mm(WIDTH)).mitred();
+    let stroke = canvas.pen(theme.ink, WIDTH).mitred();
     let (long, tick) = (canvas.mm(KEY_LENGTH), canvas.mm(TICK));
     let mut sample = Key::piece(long);
     sample.extend(Outline::lines([0.0, long].map(|x| [-tick, tick].map(|y| PagePoint::new(x, y)))));
@@ -124,10 +117,10 @@ fn whiskers(canvas: &mut Canvas<'_>, placement: &Placement) {
         let (x, y) = (side.y * tick, side.x * tick);
         whisker.extend(Outline::lines(ends.map(|end| [end.moved(-x, -y), end.moved(x, y)])));
         let amount = placement_length(canvas.scene(), own.proved, three_down);
-        let casing = Stroke::new(theme.page, canvas.mm(WIDTH + 0.3));
+        let casing = canvas.pen(theme.page, WIDTH + 0.3);
         let shapes =
             vec![Path::stroked(whisker.clone(), casing).with_opacity(0.7), Path::stroked(whisker, stroke.clone())];
-        let mark = Mark::new(Layer::Symbol, "tolerance", shapes).avoided(canvas.mm(0.3)).keyed(&key);
+        let mark = Mark::new(Layer::Symbol, "tolerance", shapes).avoided(0.3).keyed(&key);
         canvas.put(mark.titled(format!("Block {} alone may be off by {amount}", block.id)));
         let is_least = own.proved <= least * (1.0 + 1e-3);
         if canvas.options.main_amounts && (is_small || is_least && stated < MAX_LEAST_AMOUNTS) {

@@ -76,6 +76,11 @@ impl Label {
         Label { words, bold: false, colour, anchors, rank, away, fixed, inside, is_mentioned: false, symbol }
     }
 
+    /// Returns a label with its middle at this point, if no other label lies there.
+    pub fn at(at: PagePoint, words: String, colour: Colour, rank: u8) -> Label {
+        Label { fixed: Some(at), ..Label::new(words, colour, vec![at], rank) }
+    }
+
     /// Returns the width and the height of the ink, pixels. `size` is the font size in pixels.
     fn size(&self, size: f64) -> (f64, f64) {
         match &self.symbol {
@@ -119,7 +124,7 @@ impl Surroundings {
         for mark in marks {
             let Some(clear) = mark.avoid else { continue };
             for path in &mark.shapes {
-                let clear = clear + path.stroke.as_ref().map_or(0.0, |s| s.width / 2.0);
+                let clear = look.mm(clear) + path.stroke.as_ref().map_or(0.0, |s| s.width / 2.0);
                 let points: Vec<PagePoint> = path.outline.points().collect();
                 if path.fill.is_some() {
                     add(grown(hull(points), clear));

@@ -11,7 +11,7 @@ use std::rc::Rc;
 
 use super::canvas::Canvas;
 use super::description::described;
-use super::design::{ArrowSize, Key, Layer, Look, Mark, along, direction, unit};
+use super::design::{Key, Layer, Look, Mark, along, direction, unit};
 use super::option::Options;
 use super::panel::{About, Figure, Subject, View};
 use super::placing::Label;
@@ -52,13 +52,11 @@ pub(crate) struct ForcePolygon;
 
 impl Figure for ForcePolygon {
     fn about(&self) -> About {
-        About {
-            name: "polygon",
-            help: "The external forces on the structure, and their force polygon next to it",
-            title: "The force polygon of a dry-laid structure",
-            states_own_margin: true,
-            ..About::default()
-        }
+        About::new(
+            "polygon",
+            "The external forces on the structure, and their force polygon next to it",
+            "The force polygon of a dry-laid structure",
+        )
     }
 
     fn subject(&self, analysis: &Analysis, options: &Options, frames: Option<&[usize]>) -> Subject {
@@ -117,7 +115,7 @@ impl Figure for ForcePolygon {
 /// Returns the external forces on the structure of a frame, in the order of the polygon: weights and loads block by
 /// block, forces of the ground and of robots, missing forces.
 fn sides(analysis: &Analysis, frame: usize) -> Vec<ActingForce> {
-    let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
+    let (scene, found) = analysis.at(frame);
     let mut all = acting_forces(scene, &scene.frames[frame], found, Contact::acting);
     all.retain(|side| !matches!(side.kind.partner(), Some(BodyId::Block(_))));
     let largest = all.iter().map(|side| side.force.norm()).fold(0.0, f64::max);
@@ -177,8 +175,7 @@ impl Chain {
     /// external forces.
     fn new(analysis: &Analysis, frame: usize) -> Option<Chain> {
         let scene = &analysis.scene;
-        let blocks = stage::shown_blocks(scene).into_iter().map(|id| scene.blocks[id.0].body.polygon.bounds());
-        let structure = blocks.reduce(Bounds::union)?;
+        let structure = scene.bounds(&stage::shown_blocks(scene))?;
         let scale = scale(analysis, structure)?;
         let sides = sides(analysis, frame);
         let corners = corners(&sides);
@@ -251,7 +248,7 @@ fn ink(canvas: &Canvas<'_>, kind: ForceKind) -> Colour {
 fn shape(canvas: &Canvas<'_>, kind: ForceKind, outline: Outline) -> Path {
     let (ink, page) = (ink(canvas, kind), canvas.theme().page);
     if kind.is_failure() {
-        let edge = Stroke::new(ink, canvas.mm(0.22)).dashed([canvas.mm(0.55), canvas.mm(0.4)]);
+        let edge = canvas.dashes(ink, 0.22, [0.55, 0.4]);
         return Path::filled(outline, page).with_stroke(edge);
     }
     Path::filled(outline, ink).cased(page, canvas.mm(0.12))
@@ -293,11 +290,10 @@ fn at_structure(canvas: &mut Canvas<'_>, sides: &[ActingForce]) {
         }
         let u = direction(side.force);
         let (at, length) = (canvas.place(side.at), (canvas.scale * norm).max(canvas.mm(1.6)));
-        let head = (canvas.mm(1.7), canvas.mm(1.7).min(0.62 * length));
-        let outline = ArrowSize { length, shaft: canvas.mm(0.7), head }.outline(at, u);
+        let outline = canvas.arrow(length, [0.7, 1.7, 1.7], 0.62).outline(at, u);
         let layer = if side.kind.is_failure() { Layer::Missing } else { Layer::Force };
         let mark = Mark::new(layer, "force", vec![shape(canvas, side.kind, outline)]).titled(title(canvas, side));
-        canvas.put(mark.avoided(canvas.mm(0.2)));
+        canvas.put(mark.avoided(0.2));
         if let Some(name) = name.filter(|_| matches!(side.kind, ForceKind::Contact(_)) && canvas.options.labels) {
             let anchors = vec![along(at, u, 0.0, 0.0), along(at, u, 0.5 * length, 0.0)];
             let away = Some((-u.0, -u.1));
@@ -320,11 +316,10 @@ fn polygon(canvas: &mut Canvas<'_>, sides: &[ActingForce]) {
         let length = to.distance(from).max(1e-9);
         let u = ((to.x - from.x) / length, (to.y - from.y) / length);
         let wide = if side.kind.is_failure() { 0.9 } else { 0.42 };
-        let head = (canvas.mm(1.2 + wide), canvas.mm(1.7).min(0.6 * length));
-        let outline = ArrowSize { length, shaft: canvas.mm(wide), head }.outline(from, u);
+        let outline = canvas.arrow(length, [wide, 1.2 + wide, 1.7], 0.6).outline(from, u);
         let mark = Mark::new(Layer::Force, "side", vec![shape(canvas, side.kind, outline)]).titled(title(canvas, side));
         let mark = if side.kind.is_failure() { mark.keyed(&missing_key) } else { mark };
-        canvas.put(mark.avoided(canvas.mm(0.2)));
+        canvas.put(mark.avoided(0.2));
         let amount = quantity(side.force.norm(), units);
         let words = match (side.kind, name) {
             (kind, _) if kind == ForceKind::Load || kind.is_failure() => amount,
@@ -334,7 +329,7 @@ fn polygon(canvas: &mut Canvas<'_>, sides: &[ActingForce]) {
         // The name stands outside of the polygon.
         let outward = if nalgebra::center(&ends[0], &ends[1]).x < middle { -1.0 } else { 1.0 };
         let anchors = [0.5, 0.3, 0.7].map(|share| along(from, u, share * length, 0.0)).to_vec();
-        if canvas.options.labels && canvas.options.main_amounts {
+        if canvas.states_amounts() {
             let label = Label::new(words, ink(canvas, side.kind), anchors, 4);
             canvas.label(Label { away: Some((outward, 0.0)), ..label });
         }
@@ -350,7 +345,7 @@ fn polygon(canvas: &mut Canvas<'_>, sides: &[ActingForce]) {
         canvas.put(mark.titled("The same corner of the force polygon, drawn at two places"));
     }
     if let (Some(last), Some(first), false) = (chain.sides.last(), chain.sides.first(), closed) {
-        let stroke = Stroke::new(theme.failure, canvas.mm(0.26)).dashed([canvas.mm(0.9), canvas.mm(0.7)]);
+        let stroke = canvas.dashes(theme.failure, 0.26, [0.9, 0.7]);
         let path = Path::stroked(line(canvas, [last[1], first[0]]), stroke);
         let mark = Mark::new(Layer::Force, "gap", vec![path]);
         canvas.put(mark.titled("The force that is missing for equilibrium"));
@@ -366,29 +361,26 @@ fn weights(canvas: &mut Canvas<'_>, sides: &[ActingForce], chain: &Chain) {
     else {
         return;
     };
-    if count != all || !(canvas.options.labels && canvas.options.main_amounts) {
+    if count != all || !canvas.states_amounts() {
         return;
     }
     let sum: Vector = sides.iter().take(count).map(|side| side.force).sum();
     let words = if count == 1 { "weight" } else { "weights" };
-    let words = format!("{words}: {}", quantity(sum.norm(), canvas.scene().units.force()));
+    let words = format!("{words}: {}", canvas.newtons(sum.norm()));
     let at = |share: f64| canvas.place(from + (to - from) * share);
     let label = Label::new(words, canvas.theme().ink, vec![at(0.5), at(0.3), at(0.7)], 5);
     canvas.label(Label { away: Some((-1.0, 0.0)), ..label });
 }
 
 fn join_stroke(canvas: &Canvas<'_>) -> Stroke {
-    Stroke::new(canvas.theme().faint, canvas.mm(0.15)).dashed([canvas.mm(0.4), canvas.mm(0.4)])
+    canvas.dashes(canvas.theme().faint, 0.15, [0.4, 0.4])
 }
 
 /// Returns the entries of the legend: a missing force, the scale, and corners at two places.
 fn keys(canvas: &Canvas<'_>, chain: &Chain) -> (Rc<Key>, Rc<Key>, Rc<Key>) {
     let (theme, units) = (canvas.theme(), canvas.scene().units.force());
     let start = PagePoint::new(0.0, 0.0);
-    let arrow = |length: f64, shaft: f64| {
-        let head = (canvas.mm(1.2 + shaft), canvas.mm(1.7).min(0.6 * length));
-        ArrowSize { length, shaft: canvas.mm(shaft), head }.outline(start, (1.0, 0.0))
-    };
+    let arrow = |length: f64, wide: f64| canvas.arrow(length, [wide, 1.2 + wide, 1.7], 0.6).outline(start, (1.0, 0.0));
     let width = canvas.mm(4.8);
     let symbol = vec![shape(canvas, ForceKind::MissingPull(BodyId::Ground(0)), arrow(width, 0.9))];
     let missing = Key::new(50, "missing", symbol, width);

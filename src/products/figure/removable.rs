@@ -6,10 +6,9 @@ use super::design::{Key, Layer, Mark};
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::{load, stage};
+use super::stage;
 use crate::mechanics::analysis::{Analysis, Removable, Verdict};
-use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
-use crate::products::wording::number::quantity;
+use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Theme};
 use crate::products::wording::question::removable_phrases;
 use crate::products::wording::verdict;
 
@@ -24,27 +23,25 @@ pub(crate) struct RemovableBlocks;
 impl Figure for RemovableBlocks {
     fn about(&self) -> About {
         About {
-            name: "removable",
-            help: "Which blocks may leave: without help, while a robot holds another block, or not",
-            title: "Blocks that may leave a dry-laid structure",
             needs_removable: true,
-            states_own_margin: true,
-            ..About::default()
+            ..About::new(
+                "removable",
+                "Which blocks may leave: without help, while a robot holds another block, or not",
+                "Blocks that may leave a dry-laid structure",
+            )
         }
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
-        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
+        let (scene, found) = analysis.at(frame);
         match (&found.removable, found.verdict) {
             (_, Verdict::Undecided) => vec![verdict::reason(scene, found)],
             (rows, _) => removable_phrases(scene, rows.as_deref().unwrap_or_default()),
         }
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
-        stage::ground(canvas);
+    fn below(&self, canvas: &mut Canvas<'_>) {
         let rows = canvas.found().removable.as_deref().unwrap_or_default();
-        stage::blocks(canvas);
         let states_amounts = rows.len() <= MAX_AMOUNTS && canvas.options.main_amounts;
         if states_amounts {
             canvas.mentioned = rows.iter().filter_map(|row| Some(row.help?.block)).collect();
@@ -52,9 +49,6 @@ impl Figure for RemovableBlocks {
         for row in rows {
             block(canvas, row, states_amounts);
         }
-        stage::held(canvas);
-        load::loads(canvas);
-        stage::names(canvas);
     }
 }
 
@@ -76,7 +70,7 @@ fn group(row: &Removable, theme: &Theme) -> (u8, &'static str, Colour, bool) {
 fn block(canvas: &mut Canvas<'_>, row: &Removable, states_amount: bool) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
     let (rank, words, fill, is_bold) = group(row, theme);
-    let edge = Stroke::new(theme.outline, canvas.mm(if is_bold { 0.4 } else { 0.2 }));
+    let edge = canvas.pen(theme.outline, if is_bold { 0.4 } else { 0.2 });
     let (wide, high) = (canvas.mm(KEY_SIZE.0), canvas.mm(KEY_SIZE.1) / 2.0);
     let corners = [(0.0, -high), (wide, -high), (wide, high), (0.0, high)];
     let symbol = Outline::ring(corners.map(|(x, y)| PagePoint::new(x, y)));
@@ -85,9 +79,9 @@ fn block(canvas: &mut Canvas<'_>, row: &Removable, states_amount: bool) {
     let block = &scene.blocks[row.block.0];
     let outline = canvas.camera.polygon(&block.body.polygon);
     let inner = stage::seams(&block.body, scene.lattice, &canvas.camera);
-    let seams = Path::stroked(inner, Stroke::new(theme.seam_on(fill, 0.22), canvas.mm(0.1)));
+    let seams = Path::stroked(inner, canvas.pen(theme.seam_on(fill, 0.22), 0.1));
     let help = row.help.map(|help| {
-        let force = quantity(help.force, scene.units.force());
+        let force = canvas.newtons(help.force);
         (format!("{force} on {}", scene.blocks[help.block.0].id), help)
     });
     let title = match &help {

@@ -9,15 +9,14 @@
 
 use super::arrow::MIN_VISIBLE_ARROW;
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, along, unit};
+use super::design::{Key, Layer, Mark, along, unit};
 use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
-use super::{load, stage};
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::{Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope};
 use crate::mechanics::scene::Scene;
-use crate::pictures::drawing::{Colour, Face, Group, Outline, PagePoint, Path, Stroke, Text, Theme, text};
+use crate::pictures::drawing::{Colour, Face, Group, Outline, PagePoint, Path, Text, Theme, text};
 use crate::products::wording::failure::pair;
 use crate::products::wording::number::{counted, digits, round_below};
 use crate::products::wording::sensitivity::{
@@ -38,12 +37,12 @@ pub(crate) struct CornerEffects;
 impl Figure for CornerEffects {
     fn about(&self) -> About {
         About {
-            name: "sensitivity",
-            help: "Where to move corners to make a margin larger, the ten most effective changes numbered; --margin selects the margin",
-            title: "How corners change the margin of a dry-laid structure",
             needs_sensitivity: true,
-            states_own_margin: true,
-            ..About::default()
+            ..About::new(
+                "sensitivity",
+                "Where to move corners to make a margin larger, the ten most effective changes numbered; --margin selects the margin",
+                "How corners change the margin of a dry-laid structure",
+            )
         }
     }
 
@@ -68,11 +67,7 @@ impl Figure for CornerEffects {
         words
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
-        stage::ground(canvas);
-        stage::blocks(canvas);
-        stage::held(canvas);
-        load::loads(canvas);
+    fn above(&self, canvas: &mut Canvas<'_>) {
         if let Some(plan) = Plan::new(canvas.analysis, canvas.number, canvas.options) {
             arrows(canvas, &plan);
             rings(canvas, &plan);
@@ -81,7 +76,6 @@ impl Figure for CornerEffects {
                 canvas.note(70, &format!("{corners} without an arrow, because the margin has a kink there"));
             }
         }
-        stage::names(canvas);
     }
 
     /// Lists the numbered changes with the estimated new margins.
@@ -120,8 +114,7 @@ fn arrows(canvas: &mut Canvas<'_>, plan: &Plan) {
     let metres = scale(canvas.analysis, unit(scene, canvas.options.zoom), canvas.options);
     let sized = |canvas: &Canvas<'_>, length: f64, is_numbered: bool| {
         let width = WIDTHS[usize::from(!is_numbered)];
-        let head = (canvas.mm(3.4 * width), canvas.mm(3.4 * width).min(0.62 * length));
-        ArrowSize { length, shaft: canvas.mm(width), head }
+        canvas.arrow(length, [width, 3.4 * width, 3.4 * width], 0.62)
     };
     let (start, long) = (PagePoint::new(0.0, 0.0), canvas.mm(4.8));
     let key = |rank: u8, words: String, is_numbered: bool, width: f64| {
@@ -150,7 +143,7 @@ fn arrows(canvas: &mut Canvas<'_>, plan: &Plan) {
         let title = format!("{per_step} for {}", length(scene, plan.step));
         let key = if arrow.number.is_some() { &numbered_key } else { &plain_key };
         let mark = Mark::new(Layer::Missing, "effect", vec![path]).titled(title).keyed(key);
-        canvas.put(mark.avoided(canvas.mm(0.15)));
+        canvas.put(mark.avoided(0.15));
         if let Some(number) = arrow.number {
             let anchors = vec![along(from, u, long, 0.0), along(from, u, 0.6 * long, 0.0)];
             let label = Label::new(number.to_string(), number_colour(theme), anchors, 10 + number.min(90) as u8);
@@ -164,7 +157,7 @@ fn arrows(canvas: &mut Canvas<'_>, plan: &Plan) {
 fn rings(canvas: &mut Canvas<'_>, plan: &Plan) {
     let (theme, radius) = (canvas.theme(), canvas.mm(RING_RADIUS));
     let ring = |at: PagePoint, radius: f64| {
-        let edge = Stroke::new(number_colour(theme), canvas.mm(0.25));
+        let edge = canvas.pen(number_colour(theme), 0.25);
         vec![Path::filled(Outline::circle(at, radius), theme.page).with_stroke(edge)]
     };
     let (small, width) = (0.6 * radius, 1.2 * radius + canvas.mm(0.3));
@@ -188,9 +181,9 @@ fn rings(canvas: &mut Canvas<'_>, plan: &Plan) {
     }
     for (at, shapes, change) in drawn {
         let mark = Mark::new(Layer::Missing, "change", shapes).titled(format!("{}: {}", change.number, change.words));
-        canvas.put(mark.keyed(&key).avoided(canvas.mm(0.2)));
-        let label = Label::new(change.number.to_string(), number_colour(theme), vec![at], 0);
-        canvas.label(Label { bold: true, fixed: Some(at), ..label });
+        canvas.put(mark.keyed(&key).avoided(0.2));
+        let label = Label::at(at, change.number.to_string(), number_colour(theme), 0);
+        canvas.label(Label { bold: true, ..label });
     }
 }
 
@@ -342,8 +335,7 @@ fn scale(analysis: &Analysis, unit: f64, options: &Options) -> f64 {
     let plans = frames.filter_map(|frame| Plan::new(analysis, frame, options));
     let strongest = plans.map(|plan| plan.strongest()).fold(0.0, f64::max);
     let placed = scene.frames.iter().flat_map(|frame| &frame.placed);
-    let structure = placed.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union);
-    let size = structure.map_or(0.0, |b| b.width().max(b.height()));
+    let size = scene.bounds(placed).map_or(0.0, |b| b.width().max(b.height()));
     if strongest > 0.0 { (MAX_ARROW_SHARES.0 * size).max(MAX_ARROW_SHARES.1 * unit) / strongest } else { 0.0 }
 }
 

@@ -4,9 +4,9 @@ use std::rc::Rc;
 
 use super::bearing::robots_reached;
 use super::canvas::Canvas;
-use super::design::{ArrowSize, Key, Layer, Mark, along, colour, direction, overlaps};
+use super::design::{Key, Layer, Mark, along, colour, direction, overlaps};
 use super::placing::Label;
-use crate::geometry::{Bounds, Edge, Lattice};
+use crate::geometry::{Edge, Lattice};
 use crate::mechanics::scene::{BlockId, Body, BodyId, Hold, Scene};
 use crate::pictures::drawing::{Camera, Colour, Face, Outline, PagePoint, PageRect, Path, Stroke, arrow, text};
 use crate::products::wording::number::{force, quantity, round_below_in};
@@ -27,8 +27,7 @@ const TORQUE_START: f64 = -core::f64::consts::PI / 3.0;
 /// carries a joint, the ground is drawn as a shape.
 pub(crate) fn ground(canvas: &mut Canvas<'_>) {
     let scene = canvas.scene();
-    let blocks = shown_blocks(scene).into_iter().map(|id| scene.blocks[id.0].body.polygon.bounds());
-    let structure = blocks.reduce(Bounds::union).map_or(canvas.structure, |bounds| canvas.camera.rect(bounds));
+    let structure = scene.bounds(&shown_blocks(scene)).map_or(canvas.structure, |bounds| canvas.camera.rect(bounds));
     for (number, ground) in scene.ground.iter().enumerate() {
         let body = BodyId::Ground(number);
         let touches = |edge: &Edge| {
@@ -93,8 +92,8 @@ fn hatched(canvas: &Canvas<'_>, body: BodyId, edge: &Edge, structure: PageRect) 
     let band = Outline::ring([from, to, corner(to), corner(from)]);
     vec![
         Path::filled(band, theme.ground.mixed(theme.page, 0.9)),
-        Path::stroked(lines, Stroke::new(faint, canvas.mm(0.16)).mitred()),
-        Path::stroked(Outline::line([from, to]), Stroke::new(theme.ground, canvas.mm(0.38)).mitred()),
+        Path::stroked(lines, canvas.pen(faint, 0.16).mitred()),
+        Path::stroked(Outline::line([from, to]), canvas.pen(theme.ground, 0.38).mitred()),
     ]
 }
 
@@ -118,7 +117,7 @@ pub(crate) fn blocks(canvas: &mut Canvas<'_>) {
             shapes.push(Path::stroked(inner, Stroke::new(theme.seam_on(fill, 0.22), 0.6 * width)));
         }
         let mut mark = Mark::new(Layer::Stone, "block", shapes).titled(format!("Block {}", block.id));
-        mark.description = format!("weight {}", quantity(block.weight, scene.units.force()));
+        mark.description = format!("weight {}", canvas.newtons(block.weight));
         if let Some((_, words)) = canvas.fills.get(place).filter(|_| block.body.fill.is_none()) {
             mark.description = format!("{}, {words}", mark.description);
         }
@@ -128,19 +127,16 @@ pub(crate) fn blocks(canvas: &mut Canvas<'_>) {
         [(0.0, 0.0), (0.7, -1.2), (2.1, -1.2), (2.8, 0.0), (2.1, 1.2), (0.7, 1.2)]
             .map(|(x, y)| PagePoint::new(canvas.mm(x), canvas.mm(y))),
     );
-    let symbol = vec![Path::stroked(symbol, Stroke::new(theme.faint, canvas.mm(0.35)))];
+    let symbol = vec![Path::stroked(symbol, canvas.pen(theme.faint, 0.35))];
     let key = Key::new(PLAN_RANK, "planned block", symbol, canvas.mm(2.8));
     for plan in &canvas.frame().plans {
         let (block, robot) = (&scene.blocks[plan.block.0], &scene.robots[plan.robot.0]);
         let ink = theme.robot(plan.robot.0);
         let inner = seams(&block.body, scene.lattice, &canvas.camera);
         let outline = canvas.camera.polygon(&block.body.polygon);
-        let shapes = vec![
-            Path::stroked(outline, Stroke::new(ink, canvas.mm(0.45))),
-            Path::stroked(inner, Stroke::new(ink, canvas.mm(0.3))),
-        ];
+        let shapes = vec![Path::stroked(outline, canvas.pen(ink, 0.45)), Path::stroked(inner, canvas.pen(ink, 0.3))];
         let title = format!("Block {}, planned by robot {}", block.id, robot.id);
-        canvas.put(Mark::new(Layer::Stone, "plan", shapes).titled(title).keyed(&key).avoided(canvas.mm(0.1)));
+        canvas.put(Mark::new(Layer::Stone, "plan", shapes).titled(title).keyed(&key).avoided(0.1));
     }
 }
 
@@ -198,7 +194,7 @@ pub(crate) fn amount(
     (anchors, rank): (Vec<PagePoint>, u8),
     away: Option<(f64, f64)>,
 ) {
-    if canvas.options.labels && canvas.options.main_amounts {
+    if canvas.states_amounts() {
         canvas.label(Label { bold: rank > 0, away, ..Label::new(words, ink, anchors, rank) });
     }
 }
@@ -221,14 +217,14 @@ pub(crate) fn turning(torque: f64, amount: String) -> String {
 
 /// Draws the disc of a robot on its grip point.
 fn disc(canvas: &mut Canvas<'_>, hold: &Hold) {
-    let (scene, edge) = (canvas.scene(), Stroke::new(canvas.theme().ink, canvas.mm(0.22)));
+    let (scene, edge) = (canvas.scene(), canvas.pen(canvas.theme().ink, 0.22));
     let block = canvas.camera.rect(scene.blocks[hold.block.0].body.polygon.bounds());
     // A large disc hides a small block.
     let radius = (0.45 * block.width.min(block.height)).clamp(canvas.mm(0.9), canvas.mm(1.35));
     let outline = Outline::circle(canvas.place_on(BodyId::Block(hold.block), hold.at), radius);
     let disc = Path::filled(outline, canvas.theme().robot(hold.robot.0)).with_stroke(edge);
     let title = format!("Robot {} holds block {}", scene.robots[hold.robot.0].id, scene.blocks[hold.block.0].id);
-    canvas.put(Mark::new(Layer::Symbol, "robot", vec![disc]).titled(title).avoided(canvas.mm(0.15)));
+    canvas.put(Mark::new(Layer::Symbol, "robot", vec![disc]).titled(title).avoided(0.15));
 }
 
 /// Draws a diamond on the disc of each robot whose force or torque reaches one of its limits.
@@ -245,7 +241,7 @@ pub(crate) fn robot_limits(canvas: &mut Canvas<'_>) {
     for robot in robots_reached(scene, canvas.found()) {
         let title = format!("Robot {} is at its limit", scene.robots[robot.robot.0].id);
         let mark = Mark::new(Layer::Symbol, "limit", diamond(canvas, canvas.place(robot.at)));
-        canvas.put(mark.titled(title).keyed(&key).avoided(canvas.mm(0.2)));
+        canvas.put(mark.titled(title).keyed(&key).avoided(0.2));
     }
 }
 
@@ -253,7 +249,7 @@ pub(crate) fn robot_limits(canvas: &mut Canvas<'_>) {
 /// an arc. Their labels have their names and forces. In printed figures, the arrow of a robot is drawn with the others.
 pub(crate) fn robots(canvas: &mut Canvas<'_>) {
     let (scene, theme, found) = (canvas.scene(), canvas.theme(), canvas.found());
-    let edge = Stroke::new(theme.ink, canvas.mm(0.22));
+    let edge = canvas.pen(theme.ink, 0.22);
     for hold in &canvas.frame().holds {
         let (name, at, fill) = (&scene.robots[hold.robot.0].id, canvas.place(hold.at), theme.robot(hold.robot.0));
         disc(canvas, hold);
@@ -266,26 +262,24 @@ pub(crate) fn robots(canvas: &mut Canvas<'_>) {
         if canvas.scale * norm > canvas.mm(1e-3) {
             let u = direction(robot.force);
             let length = (canvas.scale * norm).max(canvas.mm(3.4));
-            let large = canvas.look.large;
-            let (shaft, head) = if large { (0.75, 1.9) } else { (0.6, 1.6) };
-            let head = (canvas.mm(head), canvas.mm(1.7).min(0.6 * length));
-            let outline = ArrowSize { length, shaft: canvas.mm(shaft), head }.outline(at, u);
+            let sizes = if canvas.look.large { [0.75, 1.9, 1.7] } else { [0.6, 1.6, 1.7] };
+            let outline = canvas.arrow(length, sizes, 0.6).outline(at, u);
             let title = format!("Force on block {on} from robot {name}: {}", force(robot.force, scene.units));
             let shapes = vec![Path::filled(outline, fill).with_stroke(edge.clone())];
             let shapes = if canvas.options.printed() { Vec::new() } else { shapes };
-            canvas.put(Mark::new(Layer::Symbol, "robot-force", shapes).titled(title).avoided(canvas.mm(0.2)));
+            canvas.put(Mark::new(Layer::Symbol, "robot-force", shapes).titled(title).avoided(0.2));
             anchors.insert(0, along(at, u, length, 0.0));
         }
         let ink = theme.letters_on(theme.page, Some(fill));
-        let mut words = format!("{name}: {}", quantity(norm, scene.units.force()));
+        let mut words = format!("{name}: {}", canvas.newtons(norm));
         if robot.torque.abs() > 1e-9 * found.weight * found.length {
             let stated = quantity(robot.torque.abs(), scene.units.torque());
             let title = format!("Torque on block {on} from robot {name}: {}", turning(robot.torque, stated.clone()));
             let shapes = torque(canvas, at, robot.torque, (2.1, 0.4), ink);
-            canvas.put(Mark::new(Layer::Symbol, "robot-torque", shapes).titled(title).avoided(canvas.mm(0.2)));
+            canvas.put(Mark::new(Layer::Symbol, "robot-torque", shapes).titled(title).avoided(0.2));
             words = format!("{words}, {stated}");
         }
-        if canvas.options.labels && canvas.options.main_amounts {
+        if canvas.states_amounts() {
             canvas.label(Label::new(words, ink, anchors, 2));
         }
     }
@@ -329,7 +323,7 @@ pub(crate) fn listed_contacts(canvas: &mut Canvas<'_>) {
         let at = canvas.place(interface.middle());
         let [a, b] = interface.bodies.map(|body| scene.name(body));
         let title = format!("Contact of {a} and {b}: friction coefficient {}", interface.friction);
-        let dot = Path::filled(Outline::circle(at, canvas.mm(0.35)), theme.ink);
+        let dot = canvas.disc(at, 0.35, theme.ink);
         canvas.put(Mark::new(Layer::Force, "contact", vec![dot]).titled(title));
     }
 }
@@ -339,17 +333,16 @@ pub(crate) fn listed_contacts(canvas: &mut Canvas<'_>) {
 pub(crate) fn dimensions(canvas: &mut Canvas<'_>) {
     let scene = canvas.scene();
     let measured = canvas.frame().placed.iter().filter(|id| canvas.options.zoom.is_none_or(|zoomed| zoomed == **id));
-    let bounds = measured.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union);
-    let Some(bounds) = bounds else { return };
+    let Some(bounds) = scene.bounds(measured) else { return };
     let (all, blocks, ink) = (canvas.extent(), canvas.camera.rect(bounds), canvas.theme().faint);
-    let size = canvas.look.text * canvas.theme().sizes.amount;
+    let size = canvas.label_size();
     let (tick, clear) = (canvas.mm(0.7), canvas.mm(2.4));
     let (x, y) = (all.at.x - clear, all.at.y + all.height + clear);
     let (left, right) = (blocks.at.x, blocks.at.x + blocks.width);
     let (top, bottom) = (blocks.at.y, blocks.at.y + blocks.height);
     let line = |from: PagePoint, to: PagePoint, (dx, dy): (f64, f64)| {
         let ends = [from, to].map(|end| [end.moved(-dx, -dy), end.moved(dx, dy)]);
-        Path::stroked(Outline::lines([[from, to], ends[0], ends[1]]), Stroke::new(ink, canvas.mm(0.15)))
+        Path::stroked(Outline::lines([[from, to], ends[0], ends[1]]), canvas.pen(ink, 0.15))
     };
     let across = line(PagePoint::new(left, y), PagePoint::new(right, y), (0.0, tick));
     let up = line(PagePoint::new(x, top), PagePoint::new(x, bottom), (tick, 0.0));
@@ -360,9 +353,9 @@ pub(crate) fn dimensions(canvas: &mut Canvas<'_>) {
         (wide, PagePoint::new((left + right) / 2.0, y + canvas.mm(0.7) + 0.6 * size)),
         (high, PagePoint::new(beside, (top + bottom) / 2.0)),
     ];
-    canvas.put(Mark::new(Layer::Around, "dimensions", vec![across, up]).avoided(canvas.mm(0.3)));
+    canvas.put(Mark::new(Layer::Around, "dimensions", vec![across, up]).avoided(0.3));
     for (words, at) in labels {
-        canvas.label(Label { fixed: Some(at), ..Label::new(words, ink, vec![at], 5) });
+        canvas.label(Label::at(at, words, ink, 5));
     }
 }
 
@@ -374,7 +367,7 @@ pub(crate) fn scale_bar(canvas: &Canvas<'_>) -> Option<Rc<Key>> {
     let line = |from: (f64, f64), to: (f64, f64)| [PagePoint::new(from.0, from.1), PagePoint::new(to.0, to.1)];
     let ends = [0.0, width].map(|x| line((x, -tick), (x, tick)));
     let bar = Outline::lines([line((0.0, 0.0), (width, 0.0)), ends[0], ends[1]]);
-    let symbol = vec![Path::stroked(bar, Stroke::new(canvas.theme().ink, canvas.mm(0.22)))];
+    let symbol = vec![Path::stroked(bar, canvas.pen(canvas.theme().ink, 0.22))];
     (metres > 0.0).then(|| Key::new(90, quantity(metres, units), symbol, width))
 }
 

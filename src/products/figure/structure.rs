@@ -2,7 +2,7 @@
 
 use super::canvas::Canvas;
 use super::panel::{About, Figure};
-use super::{load, stage};
+use super::stage;
 
 /// The figure of a structure without its solution.
 pub(crate) struct Structure;
@@ -10,20 +10,16 @@ pub(crate) struct Structure;
 impl Figure for Structure {
     fn about(&self) -> About {
         About {
-            name: "structure",
-            help: "The structure and its loads without forces and verdict, for exercises; --dimensions adds its size",
-            title: "A dry-laid structure",
             hides_verdicts: true,
-            ..About::default()
+            ..About::new(
+                "structure",
+                "The structure and its loads without forces and verdict, for exercises; --dimensions adds its size",
+                "A dry-laid structure",
+            )
         }
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
-        stage::ground(canvas);
-        stage::blocks(canvas);
+    fn below(&self, canvas: &mut Canvas<'_>) {
         stage::listed_contacts(canvas);
-        stage::held(canvas);
-        load::loads(canvas);
-        stage::names(canvas);
     }
 }

@@ -6,7 +6,8 @@
 
 use std::sync::Arc;
 
-use crate::geometry::{Bounds, Vector};
+use super::fall::motions_by_block;
+use crate::geometry::Vector;
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Motion, Verdict};
 use crate::mechanics::scene::{BlockId, Scene};
 
@@ -36,7 +37,7 @@ pub(crate) fn symmetric(proved: &Analysis, mut elementary: Analysis) -> Analysis
 /// symmetric, or if the sum is no motion worth drawing.
 fn summed(scene: &Scene, number: usize, proved: &FrameAnalysis, motions: &[Motion]) -> Option<Vec<Motion>> {
     let placed = &scene.frames[number].placed;
-    let bounds = placed.iter().map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union)?;
+    let bounds = scene.bounds(placed)?;
     let axis = 0.5 * (bounds.min.x + bounds.max.x);
     let near = MIRROR_TOL * bounds.diagonal();
     let alike = |a: f64, b: f64| (a - b).abs() <= MIRROR_TOL * a.abs().max(b.abs());
@@ -52,7 +53,7 @@ fn summed(scene: &Scene, number: usize, proved: &FrameAnalysis, motions: &[Motio
         };
         partners[id.0] = Some(*placed.iter().find(fits)?);
     }
-    let own = by_block(scene, &proved.mechanism);
+    let own = motions_by_block(scene, &proved.mechanism);
     let differs = |(block, motion): (usize, &Option<Motion>)| {
         let Some(partner) = partners[block] else { return false };
         let [a, b] =
@@ -62,7 +63,7 @@ fn summed(scene: &Scene, number: usize, proved: &FrameAnalysis, motions: &[Motio
     if own.iter().enumerate().any(differs) {
         return None;
     }
-    let elementary = by_block(scene, motions);
+    let elementary = motions_by_block(scene, motions);
     let mut sum: Vec<Motion> = Vec::new();
     for id in placed {
         let partner = partners[id.0]?;
@@ -85,14 +86,6 @@ fn summed(scene: &Scene, number: usize, proved: &FrameAnalysis, motions: &[Motio
         (motion.velocity, motion.spin) = (motion.velocity / fastest, motion.spin / fastest);
     }
     Some(sum)
-}
-
-fn by_block(scene: &Scene, motions: &[Motion]) -> Vec<Option<Motion>> {
-    let mut by_block = vec![None; scene.blocks.len()];
-    for motion in motions {
-        by_block[motion.block.0] = Some(*motion);
-    }
-    by_block
 }
 
 fn mirrored(velocity: Vector) -> Vector {

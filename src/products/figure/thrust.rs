@@ -16,10 +16,10 @@ use std::rc::Rc;
 use chain::chains;
 use leaving::{left_at, slips, with_missing_forces};
 
-use super::bearing::bearings;
+use super::bearing::pressed;
 use super::canvas::Canvas;
 use super::description::exerted_by;
-use super::design::{Key, Layer, Mark, unit};
+use super::design::{Key, Layer, Mark};
 use super::funicular::{ThrustSegment, segments};
 use super::option::Options;
 use super::panel::{About, Figure, Subject};
@@ -30,7 +30,7 @@ use crate::mechanics::analysis::{
 use crate::mechanics::statics::interface::ContactKind;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
 use crate::products::wording::failure::pair;
-use crate::products::wording::number::{counted, force, listed, quantity};
+use crate::products::wording::number::{counted, force, listed};
 use crate::products::wording::verdict;
 
 /// The width of the line of thrust for the largest force in unit lengths, with its least and largest value in mm.
@@ -50,13 +50,7 @@ pub(crate) struct ThrustLine;
 
 impl Figure for ThrustLine {
     fn about(&self) -> About {
-        About {
-            name: "thrust",
-            help: "The line of thrust through the blocks",
-            title: "The line of thrust in a dry-laid structure",
-            states_own_margin: true,
-            ..About::default()
-        }
+        About::new("thrust", "The line of thrust through the blocks", "The line of thrust in a dry-laid structure")
     }
 
     fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
@@ -152,7 +146,7 @@ fn words(canvas: &Canvas<'_>, shown: &FrameAnalysis) -> Vec<String> {
 fn thrusts(canvas: &Canvas<'_>, states: &ThrustStates) -> Vec<String> {
     let scene = canvas.scene();
     let [frame] = &scene.frames[..] else { return Vec::new() };
-    let amount = |newtons: f64| quantity(newtons, scene.units.force());
+    let amount = |newtons: f64| canvas.newtons(newtons);
     let crown = |state: &ThrustState| Some(chains(scene, frame, &state.frame).first()?.crown_thrust);
     let stated = |of: &dyn Fn(&ThrustState) -> Option<f64>| {
         let shown = amount(of(states.central.as_ref()?)?);
@@ -216,10 +210,8 @@ impl Keys {
             many |= has_many_lines(canvas, number) && !is_central;
             central |= is_central;
         }
-        let (width, least, most) = WIDEST;
-        let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
-        let widest = (width * unit).clamp(canvas.mm(least), canvas.mm(most));
-        let shows = quantity(largest, canvas.scene().units.force());
+        let widest = canvas.in_units(WIDEST);
+        let shows = canvas.newtons(largest);
         let line = match (central, many) {
             (true, true) => "most central line, or of the forces of least sum",
             (true, false) => "most central line",
@@ -234,7 +226,7 @@ impl Keys {
             |rank: u8, words: &str, radius: f64, symbol: Path| Key::new(rank, words, vec![symbol], 2.0 * radius);
         let radius = canvas.mm(0.6);
         let dot = dot(canvas, start.moved(radius, 0.0));
-        let (half, stroke) = (canvas.mm(2.0), Stroke::new(theme.failure, canvas.mm(0.35)));
+        let (half, stroke) = (canvas.mm(2.0), canvas.pen(theme.failure, 0.35));
         let out = Path::stroked(Key::piece(2.0 * half), stroke);
         let leaves = vec![out, ring(canvas, start.moved(half, 0.0))];
         let words = "outside the stone";
@@ -289,7 +281,7 @@ fn lines(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, segments: &[ThrustSegme
         }
         let class = if segment.through { "thrust" } else { "schematic" };
         let mark = Mark::new(Layer::Force, class, shapes).keyed(key);
-        canvas.put(mark.titled(title(canvas, segment)).avoided(canvas.mm(0.1)));
+        canvas.put(mark.titled(title(canvas, segment)).avoided(0.1));
     }
 }
 
@@ -313,31 +305,27 @@ fn title(canvas: &Canvas<'_>, segment: &ThrustSegment) -> String {
 /// Draws a dot at the point where the resultant of each interface acts, and a ring where it lies outside the stone.
 fn dots(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, keys: &Keys) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
-    for (contact, bearing) in shown.contacts.iter().zip(bearings(scene, shown)) {
-        if bearing.is_none() {
-            continue;
-        }
+    for (contact, _) in pressed(scene, shown) {
         let (at, pair) = (canvas.place(contact.resultant.at), pair(scene, contact.interface.bodies));
         let mark = if let Some(end) = left_at(contact) {
             let out = Outline::line([canvas.place(end), at]);
-            let out = Path::stroked(out, Stroke::new(theme.failure, canvas.mm(0.35)));
+            let out = Path::stroked(out, canvas.pen(theme.failure, 0.35));
             let title = format!("The line of thrust leaves the joint between {pair}");
             Mark::new(Layer::Missing, "leaves", vec![out, ring(canvas, at)]).titled(title).keyed(&keys.leaves)
         } else if slips(contact, canvas.found()) {
             let title = format!("The line of thrust is too steep for the friction between {pair}");
             Mark::new(Layer::Missing, "slips", vec![steep(canvas, at)]).titled(title).keyed(&keys.slips)
         } else {
-            let amount = quantity(contact.amount(), scene.units.force());
+            let amount = canvas.newtons(contact.amount());
             let mark = Mark::new(Layer::Symbol, "resultant", vec![dot(canvas, at)]).keyed(&keys.dot);
             mark.titled(format!("Between {pair}: {amount}"))
         };
-        canvas.put(mark.avoided(canvas.mm(0.15)));
+        canvas.put(mark.avoided(0.15));
     }
 }
 
 fn dot(canvas: &Canvas<'_>, at: PagePoint) -> Path {
-    let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
-    let radius = (0.06 * unit).clamp(canvas.mm(0.2), canvas.mm(0.55));
+    let radius = canvas.in_units((0.06, 0.2, 0.55));
     Path::filled(Outline::circle(at, radius), canvas.theme().ink).cased(canvas.theme().page, 0.3 * radius)
 }
 
@@ -349,8 +337,8 @@ fn steep(canvas: &Canvas<'_>, at: PagePoint) -> Path {
 }
 
 fn ring(canvas: &Canvas<'_>, at: PagePoint) -> Path {
-    let stroke = Stroke::new(canvas.theme().failure, canvas.mm(0.35));
-    Path::filled(Outline::circle(at, canvas.mm(0.7)), canvas.theme().page).with_stroke(stroke)
+    let stroke = canvas.pen(canvas.theme().failure, 0.35);
+    canvas.disc(at, 0.7, canvas.theme().page).with_stroke(stroke)
 }
 
 /// Draws the thin lines of least and of greatest thrust. A line whose state is not known is left out.
@@ -363,12 +351,12 @@ fn limits(canvas: &mut Canvas<'_>, states: &ThrustStates) {
     for ((state, class, name, rank), dashes) in both.into_iter().zip(LIMIT_DASHES) {
         let Some(state) = state else { continue };
         let ink = theme.motion.mixed(theme.ink, 0.45);
-        let stroke = Stroke::new(ink, canvas.mm(LIMIT_WIDTH)).dashed(dashes.map(|length| canvas.mm(length)));
+        let stroke = canvas.dashes(ink, LIMIT_WIDTH, dashes);
         let pieces = segments(scene, canvas.frame(), &state.frame).into_iter();
         let outline = Outline::lines(pieces.map(|piece| [piece.from, piece.to].map(|p| canvas.place(p))));
         let key = Key::line(rank, name.to_lowercase(), canvas.mm(KEY_LENGTH), stroke.clone());
-        let thrust = quantity(state.thrust, scene.units.force());
+        let thrust = canvas.newtons(state.thrust);
         let mark = Mark::new(Layer::Force, class, vec![Path::stroked(outline, stroke)]).keyed(&key);
-        canvas.put(mark.titled(format!("{name}: {thrust} horizontally at the supports")).avoided(canvas.mm(0.1)));
+        canvas.put(mark.titled(format!("{name}: {thrust} horizontally at the supports")).avoided(0.1));
     }
 }

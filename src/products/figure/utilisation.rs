@@ -8,16 +8,16 @@ use std::rc::Rc;
 
 use super::bearing::{Bearing, bearings, has_limits};
 use super::canvas::Canvas;
-use super::design::{Key, Layer, Mark, unit};
+use super::design::{Key, Layer, Mark};
 use super::option::Options;
 use super::panel::{About, Figure};
-use super::{load, stage, verdict};
+use super::{stage, verdict};
 use crate::mechanics::analysis::{Analysis, Contact, MarginKind, Verdict};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::pictures::drawing::{Outline, PagePoint, Path, Stroke};
 use crate::products::wording::failure::pair;
 use crate::products::wording::margin::Parameter;
-use crate::products::wording::number::{FULL_UTILISATION, percent, quantity};
+use crate::products::wording::number::{FULL_UTILISATION, percent};
 use crate::products::wording::verdict::reason;
 
 /// The width of the line of an interface in unit lengths, with its least and largest width in mm.
@@ -33,13 +33,11 @@ pub(crate) struct Utilisation;
 
 impl Figure for Utilisation {
     fn about(&self) -> About {
-        About {
-            name: "utilisation",
-            help: "The used share of the available friction at each interface",
-            title: "Friction used in a dry-laid structure",
-            states_own_margin: true,
-            ..About::default()
-        }
+        About::new(
+            "utilisation",
+            "The used share of the available friction at each interface",
+            "Friction used in a dry-laid structure",
+        )
     }
 
     fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
@@ -47,7 +45,7 @@ impl Figure for Utilisation {
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
-        let (scene, found) = (analysis.scene_of(frame), &analysis.frames[frame]);
+        let (scene, found) = analysis.at(frame);
         let mut words: Vec<String> = verdict::margin(scene, found, Parameter::Friction).into_iter().collect();
         if found.verdict == Verdict::Undecided {
             words.push(reason(scene, found));
@@ -55,18 +53,16 @@ impl Figure for Utilisation {
         words
     }
 
-    fn draw(&self, canvas: &mut Canvas<'_>) {
-        stage::ground(canvas);
-        stage::blocks(canvas);
+    fn below(&self, canvas: &mut Canvas<'_>) {
         let look = Lines::new(canvas);
         if canvas.found().verdict == Verdict::Unstable {
             canvas.note(70, "colours show the balance with the missing forces added");
         }
         look.interfaces(canvas);
-        stage::held(canvas);
-        look.robots(canvas);
-        load::loads(canvas);
-        stage::names(canvas);
+    }
+
+    fn above(&self, canvas: &mut Canvas<'_>) {
+        Lines::new(canvas).robots(canvas);
     }
 }
 
@@ -84,19 +80,16 @@ struct Lines {
 impl Lines {
     fn new(canvas: &Canvas<'_>) -> Lines {
         let theme = canvas.theme();
-        let (width, least, most) = LINE_WIDTH;
-        let unit = canvas.camera.length(unit(canvas.scene(), canvas.options.zoom));
-        let bold = (width * unit).clamp(canvas.mm(least), canvas.mm(most));
+        let bold = canvas.in_units(LINE_WIDTH);
         let (start, long) = (PagePoint::new(0.0, 0.0), canvas.mm(KEY_LENGTH));
         let line = || Key::piece(long);
         let key = |rank: u8, words: &str, symbol: Vec<Path>| Key::new(rank, words, symbol, long);
         let of_key = canvas.mm(0.8);
         let rimmed = |share: f64| rimmed_line(canvas, line(), of_key, Some(share)).to_vec();
         let bar = Outline::line([start.moved(long / 2.0, -canvas.mm(1.2)), start.moved(long / 2.0, canvas.mm(1.2))]);
-        let full = rimmed(1.0).into_iter().chain([Path::stroked(bar, Stroke::new(theme.ink, canvas.mm(0.26)))]);
-        let disc =
-            Path::filled(Outline::circle(start.moved(canvas.mm(0.9), 0.0), canvas.mm(0.9)), theme.amplitude(0.5));
-        let disc = vec![disc.with_stroke(Stroke::new(theme.ink, canvas.mm(0.12)))];
+        let full = rimmed(1.0).into_iter().chain([Path::stroked(bar, canvas.pen(theme.ink, 0.26))]);
+        let disc = canvas.disc(start.moved(canvas.mm(0.9), 0.0), 0.9, theme.amplitude(0.5));
+        let disc = vec![disc.with_stroke(canvas.pen(theme.ink, 0.12))];
         let words = "of a robot's limits";
         let limits = Key::new(14, words, disc, canvas.mm(1.8));
         let symbol = stage::colour_bar(canvas, COLOURS_LENGTH, |share| theme.amplitude(share));
@@ -129,12 +122,12 @@ impl Lines {
                 canvas.put(mark.titled(format!("Between {pair}: no force")).keyed(&self.idle));
                 continue;
             };
-            let pressed = quantity(bearing.pressed, scene.units.force());
+            let pressed = canvas.newtons(bearing.pressed);
             let title = match bearing.friction {
                 Some(share) => format!(
                     "Between {pair}: {} of the available friction, {} under {pressed}",
                     percent(share),
-                    quantity(contact.friction_force.abs(), scene.units.force()),
+                    canvas.newtons(contact.friction_force.abs()),
                 ),
                 None => format!("Between {pair}: {pressed}, no friction available"),
             };
@@ -146,7 +139,7 @@ impl Lines {
                 canvas.explain(Rc::clone(&self.full));
             }
             let key = if bearing.friction.is_some() { &self.colours } else { &self.smooth };
-            canvas.put(Mark::new(Layer::Force, "interface", shapes).titled(title).keyed(key).avoided(canvas.mm(0.2)));
+            canvas.put(Mark::new(Layer::Force, "interface", shapes).titled(title).keyed(key).avoided(0.2));
         }
     }
 
@@ -164,11 +157,11 @@ impl Lines {
         for robot in canvas.found().robots.iter().filter(|robot| has_limits(scene, robot.robot)) {
             let (at, radius) = (canvas.place(robot.at), canvas.mm(0.9));
             let (id, used) = (&scene.robots[robot.robot.0].id, robot.limit_used);
-            let rim = Stroke::new(theme.ink, canvas.mm(0.12));
+            let rim = canvas.pen(theme.ink, 0.12);
             let mut shapes = vec![Path::filled(Outline::circle(at, radius), theme.amplitude(used)).with_stroke(rim)];
             if used >= FULL_UTILISATION {
                 let bar = Outline::line([at.moved(0.0, -1.25 * radius), at.moved(0.0, 1.25 * radius)]);
-                shapes.push(Path::stroked(bar, Stroke::new(theme.ink, canvas.mm(0.26))));
+                shapes.push(Path::stroked(bar, canvas.pen(theme.ink, 0.26)));
                 canvas.explain(Rc::clone(&self.full));
             }
             canvas.explain(Rc::clone(&self.colours));

@@ -100,7 +100,7 @@ impl<'a> Plan<'a> {
 fn structure(analysis: &Analysis) -> Option<Bounds> {
     let scene = &analysis.scene;
     let placed = scene.frames.iter().flat_map(|frame| &frame.placed);
-    placed.map(|id| scene.blocks[id.0].body.polygon.bounds()).reduce(Bounds::union)
+    scene.bounds(placed)
 }
 
 fn middle(points: &[Point]) -> Point {

@@ -8,7 +8,7 @@ use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::analysis::Contact;
 use crate::mechanics::scene::BlockId;
 use crate::pictures::drawing::symbol::{Accent, Symbol};
-use crate::pictures::drawing::{Colour, PagePoint, Path, Stroke};
+use crate::pictures::drawing::{Colour, PagePoint, Path};
 use crate::products::figure::arrow::MIN_VISIBLE_ARROW;
 use crate::products::figure::canvas::Canvas;
 use crate::products::figure::design::{ArrowSize, along, unit};
@@ -69,8 +69,7 @@ pub(super) struct Arrow {
 
 /// Returns the sizes of an arrow of this length in pixels. `width` is a multiple of the usual width.
 pub(super) fn size(canvas: &Canvas<'_>, length: f64, width: f64) -> ArrowSize {
-    let head = (canvas.mm(1.6 * width), canvas.mm(1.9 * width).min(0.62 * length));
-    ArrowSize { length, shaft: canvas.mm(0.45 * width), head }
+    canvas.arrow(length, [0.45 * width, 1.6 * width, 1.9 * width], 0.62)
 }
 
 impl Arrow {
@@ -88,7 +87,7 @@ impl Arrow {
         }
         let outline = size(canvas, self.length, if self.hollow { 1.5 } else { self.width }).outline(self.at, self.u);
         if self.hollow {
-            return vec![Path::filled(outline, page).with_stroke(Stroke::new(self.colour, canvas.mm(0.25)).mitred())];
+            return vec![Path::filled(outline, page).with_stroke(canvas.pen(self.colour, 0.25).mitred())];
         }
         vec![Path::filled(outline, self.colour).cased(page, canvas.mm(0.15))]
     }

@@ -6,7 +6,7 @@ use super::chain::{Chain, chains};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanics::analysis::FrameAnalysis;
 use crate::mechanics::scene::{AppliedForce, ForceCause};
-use crate::pictures::drawing::{Colour, Outline, Path, Stroke};
+use crate::pictures::drawing::{Colour, Outline, Path};
 use crate::products::figure::canvas::Canvas;
 use crate::products::figure::design::{Key, Layer, Mark};
 use crate::products::figure::placing::Label;
@@ -38,8 +38,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, found: &FrameAnalysis) -> bool {
     let boxes: Vec<Bounds> = chains.iter().filter_map(own).collect();
     let widest = boxes.iter().map(|own| own.width()).fold(0.0, f64::max);
     let high: f64 = boxes.iter().map(|own| own.height()).sum();
-    let blocks = frame.placed.iter().map(|id| scene.blocks[id.0].body.polygon.bounds());
-    let Some(structure) = blocks.reduce(Bounds::union).filter(|_| widest > 0.0 && high > 0.0) else { return false };
+    let Some(structure) = scene.bounds(&frame.placed).filter(|_| widest > 0.0 && high > 0.0) else { return false };
     let side = structure.width().max(structure.height());
     let gaps = GAP_SHARE * side * (boxes.len() - 1) as f64;
     // The scale of the polygons, metres in the scene per newton.
@@ -58,7 +57,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, found: &FrameAnalysis) -> bool {
     let units = scene.units.force();
     let pixels = canvas.camera.length(metres);
     let newtons = round_below_in(canvas.mm(MAX_SCALE_LINE) / pixels, units);
-    let stroke = Stroke::new(canvas.theme().motion, canvas.mm(WIDTHS[1]));
+    let stroke = canvas.pen(canvas.theme().motion, WIDTHS[1]);
     canvas.explain(Key::line(
         20,
         format!("{} in the force polygon", quantity(newtons, units)),
@@ -76,8 +75,8 @@ fn fan(canvas: &mut Canvas<'_>, chain: &Chain, before: usize, (pole, metres): (P
     let vertices: Vec<Point> = chain.forces.iter().map(|force| pole + *force * metres).collect();
     let line = |canvas: &mut Canvas<'_>, class: &'static str, ends: [Point; 2], ink: Colour, width: f64, title| {
         let line = Outline::line(ends.map(|p| canvas.place(p)));
-        let path = Path::stroked(line, Stroke::new(ink, canvas.mm(width)));
-        canvas.put(Mark::new(Layer::Force, class, vec![path]).titled(title).avoided(canvas.mm(0.05)));
+        let path = Path::stroked(line, canvas.pen(ink, width));
+        canvas.put(Mark::new(Layer::Force, class, vec![path]).titled(title).avoided(0.05));
     };
     for (k, (vertex, ray)) in vertices.iter().zip(&chain.forces).enumerate() {
         let width = WIDTHS[if k == 0 || k + 1 == vertices.len() { 1 } else { 2 }];
@@ -114,7 +113,7 @@ fn fan(canvas: &mut Canvas<'_>, chain: &Chain, before: usize, (pole, metres): (P
     label(canvas, "O".into(), pole, (-1.0, 0.0), 6);
     // If all loads are vertical, the thrust H is the distance of the pole from the load line, at the scale of the
     // polygon.
-    let thrust = quantity(chain.crown_thrust, scene.units.force());
+    let thrust = canvas.newtons(chain.crown_thrust);
     let lowest = vertices.iter().map(|vertex| vertex.y).fold(pole.y, f64::min);
     label(canvas, format!("H = {thrust}"), Point::new(pole.x, lowest), (0.0, 1.0), 5);
     // Numbers that would lie on each other are left out; those of the joints on the structure remain.

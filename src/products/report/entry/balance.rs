@@ -51,7 +51,7 @@ impl Force {
 /// Makes a table of the reactions: the forces of the ground and of robots on the blocks. `number` is the index of the
 /// frame.
 pub(super) fn support_forces(analysis: &Analysis, number: usize) -> Grid {
-    let (scene, found) = (analysis.scene_of(number), &analysis.frames[number]);
+    let (scene, found) = analysis.at(number);
     let mut forces = reactions(scene, found);
     forces.extend(robots(scene, found));
     table("", &forces, Units::new(scene, found), false)
@@ -61,7 +61,7 @@ pub(super) fn support_forces(analysis: &Analysis, number: usize) -> Grid {
 /// forces, weight and loads. The last row is their sum. Moments are about the origin. `number` is the index of the
 /// frame.
 pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
-    let (scene, found) = (analysis.scene_of(number), &analysis.frames[number]);
+    let (scene, found) = analysis.at(number);
     let placed = scene.frames[number].placed.iter().copied();
     let supported: Vec<BlockId> = placed.filter(|block| !found.unsupported.contains(block)).collect();
     let grounds = reactions(scene, found);

@@ -95,7 +95,7 @@ impl Collapse {
 
     /// Makes the table of the joints of the collapse, the nearest to acting first, with a note on its numbers.
     pub fn table(&self, analysis: &Analysis, number: usize) -> (Grid, String) {
-        let (scene, found) = (analysis.scene_of(number), &analysis.frames[number]);
+        let (scene, found) = analysis.at(number);
         let stands = found.verdict == Verdict::Stable;
         let fall = Fall::with_friction(analysis, number, &self.mechanism, self.friction);
         // How far each joint is from acting: 0 if it acts with the listed forces, 1 if it is as far as possible.

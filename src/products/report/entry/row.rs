@@ -1,7 +1,6 @@
 //! [`Row`]: the row of one scene in the table of all scenes.
 
 use super::bullet;
-use crate::geometry::Bounds;
 use crate::mechanics::analysis::{Analysis, STANDS, Verdict};
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{BlockId, Scene};
@@ -138,9 +137,7 @@ pub(super) fn file_name(name: &str) -> String {
 /// Draws a small picture of the given blocks and the ground. Of very many blocks, only some are drawn. The picture is
 /// empty if there are no blocks.
 pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
-    let polygon = |id: BlockId| &scene.blocks[id.0].body.polygon;
-    let bounds = placed.iter().map(|id| polygon(*id).bounds());
-    let Some(bounds) = bounds.reduce(Bounds::union) else {
+    let Some(bounds) = scene.bounds(placed) else {
         return Thumbnail::default();
     };
     let (width, height) = THUMBNAIL_SIZE;
@@ -154,7 +151,7 @@ pub(super) fn thumbnail(scene: &Scene, placed: &[BlockId]) -> Thumbnail {
     let every = placed.len().div_ceil(MAX_THUMBNAIL_BLOCKS).max(1);
     let mut blocks = String::new();
     for id in placed.iter().step_by(every) {
-        blocks.push_str(&path_data(&camera.polygon(polygon(*id))));
+        blocks.push_str(&path_data(&camera.polygon(&scene.blocks[id.0].body.polygon)));
     }
     let mut ground = String::new();
     for part in scene.ground.iter().take(MAX_THUMBNAIL_BLOCKS) {

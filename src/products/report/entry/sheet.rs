@@ -5,7 +5,6 @@ use super::collapse::{Collapse, other_way};
 use super::joints::{Ranking, robots};
 use super::unit::Units;
 use super::{Badge, Figure, Grid, MarginBar, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
-use crate::geometry::Bounds;
 use crate::mechanics::analysis::{Analysis, CaseResult, EffectName, FrameAnalysis, MovementOutcome, Toward, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Drawing, Theme};
@@ -64,7 +63,7 @@ pub(super) fn sheet(
     steps: Option<Grid>,
     report_options: &ReportOptions,
 ) -> [Section; 2] {
-    let (scene, found) = (&**analysis.scene_of(number), &analysis.frames[number]);
+    let (scene, found) = analysis.at(number);
     let mut first = empty(scene, number, found.verdict);
     let mut second = Section { letter: String::new(), title: String::new(), begins_page: true, ..first.clone() };
     let collapse = Collapse::new(analysis, number);
@@ -149,8 +148,7 @@ fn other_balances(analysis: &Analysis, number: usize) -> Option<String> {
 
 /// True if the blocks of a frame are more than twice as wide as high.
 fn is_wide(scene: &Scene, number: usize) -> bool {
-    let bounds = scene.frames[number].placed.iter().map(|id| scene.blocks[id.0].body.polygon.bounds());
-    bounds.reduce(Bounds::union).is_some_and(|bounds| bounds.width() > 2.0 * bounds.height())
+    scene.bounds(&scene.frames[number].placed).is_some_and(|bounds| bounds.width() > 2.0 * bounds.height())
 }
 
 /// Describes steps that do not stand, in two columns. `numbers` has the indices of the steps. Each step has its first
@@ -211,7 +209,7 @@ fn figures(
     report_options: &ReportOptions,
     collapse: Option<&Collapse>,
 ) -> Vec<Figure> {
-    let (scene, found) = (analysis.scene_of(number), &analysis.frames[number]);
+    let (scene, found) = analysis.at(number);
     let forces = match found.verdict {
         Verdict::Stable => "The forces of one possible balance.",
         Verdict::Unstable if found.failures.is_empty() => "The forces.",

@@ -72,7 +72,7 @@ const MIN_CHART_JOINTS: usize = 8;
 /// Makes the appendix of a frame: all joints that carry force, all failures, effects with their cost, the proof in
 /// numbers, and charts. `number` is the index of the frame.
 fn appendix(analysis: &Analysis, number: usize, report_options: &ReportOptions) -> Section {
-    let (scene, frame_analysis) = (analysis.scene_of(number), &analysis.frames[number]);
+    let (scene, frame_analysis) = analysis.at(number);
     let mut section = empty(scene, number, frame_analysis.verdict);
     section.title = format!("Appendix {}", section.title).trim_end().to_owned();
     let grids = [
