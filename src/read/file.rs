@@ -1,4 +1,5 @@
-//! [`bytes`] and [`text`]: read a whole file that may come from a stranger, up to a limit.
+//! [`bytes`] and [`text`]: read a whole file that may come from a stranger, up to a limit. [`ending`]: the extension of
+//! its name.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -20,6 +21,11 @@ pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
 pub fn text(path: &Path) -> io::Result<String> {
     let not_utf8 = |_| io::Error::new(io::ErrorKind::InvalidData, "it is not valid UTF-8; save it as UTF-8");
     String::from_utf8(bytes(path)?).map_err(not_utf8)
+}
+
+/// Returns the extension of a file name in lower case; empty if there is none.
+pub fn ending(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
 /// Reads a stream to its end, but no more than the limit.

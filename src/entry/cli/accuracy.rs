@@ -18,6 +18,7 @@ use crate::products::report::accuracy::{csv, markdown, page, svg};
 use crate::products::result::accuracy_json;
 use crate::products::study::{Case, TOLERANCES, study};
 use crate::products::wording::number::counted;
+use crate::read::file::ending;
 
 /// Measure the time and the errors of the accuracy levels and of the solver alone at several tolerances
 #[derive(Debug, Args)]
@@ -47,10 +48,10 @@ impl Accuracy {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
         let mut forms = Vec::with_capacity(self.output.len());
         for path in &self.output {
-            forms.push((path, form(path).map_err(|c| vec![c])?));
+            forms.push((path, form(path)?));
         }
         let scenes: Vec<&Path> = self.scenes.iter().map(PathBuf::as_path).collect();
-        destination::refuse_overwrites(&self.output, &scenes).map_err(|c| vec![c])?;
+        destination::refuse_overwrites(&self.output, &scenes)?;
         let sources = source::read(&self.scenes, None, &AnalysisArgs::default())?;
         // A scene without a title gets the name of its file, without the extension, as its title.
         let scenes: Vec<Scene> = sources
@@ -64,7 +65,7 @@ impl Accuracy {
             })
             .collect();
         let frames = scenes.iter().map(|s| s.frames.len()).sum();
-        let progress = Progress::begin(frames, terminal.progress());
+        let progress = Progress::begin(frames, terminal.shows_progress());
         let tolerances = if self.tolerances.is_empty() { &TOLERANCES[..] } else { &self.tolerances[..] };
         let study = study(&scenes, tolerances, &mut |name| {
             progress.doing(name);
@@ -77,7 +78,7 @@ impl Accuracy {
             let text = form(&study).map_err(undrawn)?;
             files.push((path.clone(), text.into_bytes()));
         }
-        destination::write(&files, Existing::Replace).map_err(|c| vec![c])?;
+        destination::write(&files, Existing::Replace)?;
         for (path, _) in &files {
             terminal.note(&format!("{}: {}", path.display(), counted(frames, "frame")));
         }
@@ -86,13 +87,12 @@ impl Accuracy {
 }
 
 fn form(path: &Path) -> Result<Form, CliError> {
-    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    match ending.as_deref() {
-        Some("html") => Ok(page),
-        Some("csv") => Ok(|study| Ok(csv(study))),
-        Some("json") => Ok(|study| Ok(accuracy_json(study))),
-        Some("svg") => Ok(svg),
-        Some("md") => Ok(|study| Ok(markdown(study))),
+    match ending(path).as_str() {
+        "html" => Ok(page),
+        "csv" => Ok(|study| Ok(csv(study))),
+        "json" => Ok(|study| Ok(accuracy_json(study))),
+        "svg" => Ok(svg),
+        "md" => Ok(|study| Ok(markdown(study))),
         _ => Err(CliError::CommandLine(format!(
             "{}: the name of the output file must end in .html, .csv, .json, .svg or .md",
             path.display()

@@ -6,7 +6,7 @@ mod output;
 mod pace;
 mod resume;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread;
 
@@ -28,6 +28,7 @@ use crate::pictures::output::file::Existing;
 use crate::pictures::output::fonts::Fonts;
 use crate::products::figure;
 use crate::products::result::{Fields, Origin, PictureOutcome, line_of, problem_line, verdict_line};
+use crate::read::file::ending;
 use crate::text;
 use output::{Output, Target};
 use pace::BatchProgress;
@@ -154,21 +155,17 @@ impl Batch {
     /// JSON. Returns an error for the extension of another table format, such as `.xlsx`, and for a CSV file together
     /// with an option that CSV does not support.
     fn form(&self) -> Result<Form, CliError> {
-        let ending = self
-            .output
-            .as_deref()
-            .and_then(Path::extension)
-            .map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+        let ending = self.output.as_deref().map(ending).unwrap_or_default();
         let refuse = |why: &str| Err(CliError::from(why));
-        match ending.as_deref() {
-            Some("csv") if self.resume => refuse(
+        match ending.as_str() {
+            "csv" if self.resume => refuse(
                 "--resume needs one line for each scene, and a .csv file has one row for each frame; write an .ndjson file",
             ),
-            Some("csv") if self.fields != Fields::default() || self.margins.margins.is_some() => refuse(
+            "csv" if self.fields != Fields::default() || self.margins.margins.is_some() => refuse(
                 "a .csv file has the same columns in every run; for --fields and --margins write an .ndjson file",
             ),
-            Some("csv") => Ok(Form::Csv),
-            Some(ending @ ("parquet" | "xlsx" | "ods" | "tsv" | "db" | "sqlite")) => refuse(&format!(
+            "csv" => Ok(Form::Csv),
+            "parquet" | "xlsx" | "ods" | "tsv" | "db" | "sqlite" => refuse(&format!(
                 "batch writes no .{ending} files; write .csv or .ndjson, which pandas, polars and DuckDB read"
             )),
             _ => Ok(Form::Json),
@@ -283,14 +280,14 @@ impl SceneWork {
     fn examined(&self, origin: &Origin, name: &str, record: &Record) -> Result<(String, ExitStatus), CliError> {
         let bytes = match &record.bytes {
             Ok(bytes) => bytes,
-            Err(why) => return Ok(self.refused(origin, &[problem(Code::NotReadable, why, "")])),
+            Err(why) => return Ok(self.refused(origin, &[Problem::alone(Code::NotReadable, why.to_owned(), "")])),
         };
         let level = self.level.started();
         let lines_before = record.line.map_or(0, |n| n - 1);
         let scene = match read_in_time(&input::shown(record), lines_before, bytes.to_vec(), &level) {
             Ok(Ok((scene, _))) => scene,
             Ok(Err(problems)) => return Ok(self.refused(origin, &problems.list)),
-            Err(late) => return Ok(self.refused(origin, &[problem(Code::NotReadable, &late, "")])),
+            Err(late) => return Ok(self.refused(origin, &[Problem::alone(Code::NotReadable, late, "")])),
         };
         let options = self.options(&level);
         if self.drawn.is_none() && self.fields.are_few() && self.form == Form::Json {
@@ -369,18 +366,5 @@ impl PictureOutput {
             Err(CliError::CommandLine(why) | CliError::NotWritten { why, .. }) => Ok(PictureOutcome::Refused(why)),
             Err(other) => Err(other),
         }
-    }
-}
-
-fn problem(code: Code, message: &str, help: &str) -> Problem {
-    Problem {
-        code,
-        path: String::new(),
-        line: 0,
-        column: 0,
-        span: None,
-        message: message.into(),
-        help: help.into(),
-        place: None,
     }
 }

@@ -62,7 +62,7 @@ impl Check {
         for file in source::foreign_files(&self.scenes)? {
             terminal.note(&format!("{}: left out, because it has no key \"drystone\"", source::name(&file)));
         }
-        let reading = Progress::begin(1, terminal.progress());
+        let reading = Progress::begin(1, terminal.shows_progress());
         reading.doing("reading");
         let outcomes = source::read_each(&self.scenes, self.what.frame, &self.what.level)?;
         drop(reading);
@@ -70,7 +70,7 @@ impl Check {
         let layout = if outcomes.len() == 1 { Layout::Lines } else { Layout::OneLine };
         if self.certificate.is_some() && outcomes.len() != 1 {
             let why = "--certificate writes the certificate of one scene; give one scene file".to_owned();
-            return Err(vec![CliError::CommandLine(why)]);
+            return Err(CliError::CommandLine(why).into());
         }
         let mut sources = Vec::new();
         let mut refused = Vec::new();
@@ -127,7 +127,7 @@ impl Check {
         terminal: &Terminal,
         width: Option<usize>,
     ) -> Vec<Result<SceneResult, CliError>> {
-        let progress = Progress::begin(sources.len(), terminal.progress());
+        let progress = Progress::begin(sources.len(), terminal.shows_progress());
         let options = self.what.base();
         let is_table = !self.json && !terminal.is_quiet();
         sources

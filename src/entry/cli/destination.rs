@@ -6,7 +6,10 @@ use std::{fs, io};
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::picture::Format;
 use crate::entry::cli::source::name;
+use crate::entry::cli::terminal::Terminal;
 use crate::pictures::output::file::{Existing, same, write_whole};
+use crate::read::file::ending;
+use crate::text;
 
 /// The destination of pictures.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,14 +42,12 @@ impl Destination {
         let Destination::File(path) = self else {
             return Ok(requested.unwrap_or(Format::Svg));
         };
-        let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-        let by_name = ending.as_deref().and_then(Format::from_ending);
-        let Some(by_name) = by_name else {
+        let Some(by_name) = Format::from_ending(&ending(path)) else {
             let shown = path.display();
             let endings = Format::ALL.map(|format| format!(".{}", format.ending()));
             return Err(format!(
                 "{shown}: the name of a picture ends in {}; for a folder, end the name with a slash",
-                one_of(&endings)
+                text::choice(endings)
             )
             .into());
         };
@@ -60,14 +61,6 @@ impl Destination {
             }
             _ => Ok(by_name),
         }
-    }
-}
-
-/// Joins file extensions with commas and `or`: `.svg, .png or .pdf`.
-fn one_of(names: &[String]) -> String {
-    match names.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
-        _ => names.concat(),
     }
 }
 
@@ -110,6 +103,20 @@ pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<
             _ => unwritten.why.to_string(),
         },
     })
+}
+
+/// Returns the file of an option `-o` that names a file; `None` for standard output.
+pub(crate) fn file(output: Option<&PathBuf>) -> Option<&Path> {
+    output.map(PathBuf::as_path).filter(|path| *path != Path::new("-"))
+}
+
+/// Writes `bytes` to a file, or prints them without a file. An existing file is an error, unless `force` is true.
+pub(crate) fn deliver(terminal: &Terminal, file: Option<&Path>, bytes: Vec<u8>, force: bool) -> Result<(), CliError> {
+    let existing = if force { Existing::Replace } else { Existing::Keep };
+    match file {
+        Some(path) => write(&[(path.to_owned(), bytes)], existing),
+        None => terminal.print_bytes(&bytes),
+    }
 }
 
 /// Creates a folder and its parents, if they do not exist.

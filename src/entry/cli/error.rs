@@ -129,18 +129,7 @@ impl CliError {
 
     /// Returns the error as problems of one file, for JSON output.
     pub(crate) fn problems(&self) -> Vec<Problem> {
-        let alone = |code, message: String, help: &str| {
-            vec![Problem {
-                code,
-                path: String::new(),
-                line: 0,
-                column: 0,
-                span: None,
-                message: line(&message),
-                help: help.into(),
-                place: None,
-            }]
-        };
+        let alone = |code, message: String, help: &str| vec![Problem::alone(code, line(&message), help)];
         match self {
             CliError::Scene { problems, .. } => problems.list.clone(),
             CliError::NoSuchFrame(what) => alone(Code::NoSuchFrame, what.clone(), "give a smaller number"),
@@ -214,6 +203,19 @@ impl CliError {
         }
         page
     }
+}
+
+/// Returns the values of all results, or all errors if there is at least one error.
+pub(crate) fn all_or_errors<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<CliError>> {
+    let mut good = Vec::with_capacity(results.len());
+    let mut complaints = Vec::new();
+    for result in results {
+        match result {
+            Ok(value) => good.push(value),
+            Err(complaint) => complaints.push(complaint),
+        }
+    }
+    if complaints.is_empty() { Ok(good) } else { Err(complaints) }
 }
 
 /// Returns the messages of the first [`MAX_SHOWN_PROBLEMS`] problems of a file, and the number of further problems.

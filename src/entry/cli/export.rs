@@ -12,8 +12,8 @@ use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::AnalysisArgs;
 use crate::entry::value::FrameChoice;
 use crate::mechanics::analysis::Analysis;
-use crate::pictures::output::file::Existing;
 use crate::products::figure;
+use crate::read::file::ending;
 
 /// Write a frame as a DXF drawing in metres: structure, line of thrust or collapse
 ///
@@ -40,7 +40,7 @@ pub(crate) struct Export {
 
 impl Export {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let file = self.output.as_deref().filter(|path| *path != Path::new("-"));
+        let file = destination::file(self.output.as_ref());
         if let Some(file) = file {
             check_name(file)?;
             destination::refuse_overwrites(&[file.to_owned()], &[&self.scene])?;
@@ -49,30 +49,25 @@ impl Export {
         let sources = source::read(&scenes, Some(self.frame), &self.level)?;
         let Some(source) = sources.first() else {
             let why = format!("there is no scene file in {}", self.scene.display());
-            return Err(vec![CliError::CommandLine(why)]);
+            return Err(CliError::CommandLine(why).into());
         };
         let text = source::isolated(&self.scene, || {
             figure::dxf(&Analysis::with(source.scene.clone(), &self.level.options()), 0)
         });
-        let bytes = text?.into_bytes();
-        match file {
-            // Without `--force`, keep an existing file: it may be the drawing from which the scene was imported.
-            Some(path) => {
-                let existing = if self.force { Existing::Replace } else { Existing::Keep };
-                let written = destination::write(&[(path.to_owned(), bytes)], existing);
-                written.map(|()| terminal.note(&format!("wrote {}", path.display())))
-            }
-            None => terminal.print_bytes(&bytes),
-        }?;
+        // Without `--force`, keep an existing file: it may be the drawing from which the scene was imported.
+        destination::deliver(terminal, file, text?.into_bytes(), self.force)?;
+        if let Some(path) = file {
+            terminal.note(&format!("wrote {}", path.display()));
+        }
         Ok(ExitStatus::Done)
     }
 }
 
 /// Refuses an output that is a folder, or whose name does not end in `.dxf`.
 fn check_name(file: &Path) -> Result<(), CliError> {
-    let why = match file.extension().map(|e| e.to_ascii_lowercase()) {
+    let why = match ending(file).as_str() {
         _ if file.is_dir() => "is a folder; name the .dxf file in it",
-        Some(ending) if ending == "dxf" => return Ok(()),
+        "dxf" => return Ok(()),
         _ => "does not end in .dxf, the only format of export; pictures come from drystone render",
     };
     Err(format!("{} {why}", file.display()).into())

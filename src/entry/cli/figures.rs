@@ -7,7 +7,7 @@ use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::entry::cli::destination::{self, Destination};
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, all_or_errors};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::picture::{Format, Picture};
 use crate::entry::cli::style_args::StyleArgs;
@@ -56,19 +56,8 @@ impl Figures {
             Some(format) => vec![format],
             None => vec![Format::Svg, Format::Png, Format::Pdf],
         };
-        let drawn: Vec<Result<Files, CliError>> =
-            plates.par_iter().map(|plate| files(plate, &formats, &self.output)).collect();
-        let mut files = Vec::new();
-        let mut complaints = Vec::new();
-        for result in drawn {
-            match result {
-                Ok(more) => files.extend(more),
-                Err(complaint) => complaints.push(complaint),
-            }
-        }
-        if !complaints.is_empty() {
-            return Err(complaints);
-        }
+        let drawn = plates.par_iter().map(|plate| files(plate, &formats, &self.output)).collect();
+        let mut files = all_or_errors(drawn)?.concat();
         let captions = self.output.join("captions.md");
         files.push((captions, captions_of(&plates).into_bytes()));
         let paths: Vec<PathBuf> = files.iter().map(|(path, _)| path.clone()).collect();

@@ -14,9 +14,9 @@ use crate::entry::value::FrameChoice;
 use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{Note, NoteCode, Scene};
 use crate::pictures::output::attachment::is_picture;
-use crate::pictures::output::file::Existing;
 use crate::products::result::import_json;
 use crate::products::wording::number::quantity;
+use crate::read::file::ending;
 use crate::sources::import::{self, Format, Imported, Options, Remark, STONES, Stone};
 use crate::text::{Word, typed_word};
 
@@ -111,16 +111,15 @@ pub(crate) struct Import {
 
 impl Import {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let stdout = Path::new("-");
-        let file = self.output.as_deref().filter(|path| *path != stdout);
+        let file = destination::file(self.output.as_ref());
         self.check_options(file)?;
-        let existing = if self.force { Existing::Replace } else { Existing::Keep };
+
         let name = source::name(&self.drawing);
         let (format, bytes) = (self.format(), source::bytes(&self.drawing));
         if let Ok(bytes) = &bytes
             && (self.source || is_picture(bytes))
         {
-            return Ok(self.bring_back(terminal, file, bytes, existing)?);
+            return Ok(self.bring_back(terminal, file, bytes)?);
         }
         let format = format?;
         let text = text(bytes?, &name, format)?;
@@ -140,7 +139,7 @@ impl Import {
                 terminal.notes(&page);
                 let mut problems = refusal.problems;
                 if let Some(scene) = refusal.overlapping.filter(|_| !self.strict) {
-                    write(terminal, file, scene.to_json().into_bytes(), existing)?;
+                    destination::deliver(terminal, file, scene.to_json().into_bytes(), self.force)?;
                     if let (Some(path), Some(last)) = (file, problems.last_mut()) {
                         let path = path.display();
                         last.help += &format!("; drystone render --broken {path} -o overlaps.svg shows what overlaps");
@@ -152,7 +151,7 @@ impl Import {
         if self.strict && !imported.remarks.is_empty() {
             return Err(refused(&name, &imported.remarks));
         }
-        write(terminal, file, imported.scene.to_json().into_bytes(), existing)?;
+        destination::deliver(terminal, file, imported.scene.to_json().into_bytes(), self.force)?;
         self.print_summary(terminal, &name, &imported);
         if self.json {
             let json = import_json(&imported);
@@ -162,18 +161,12 @@ impl Import {
     }
 
     /// Writes the scene file that a picture carries.
-    fn bring_back(
-        &self,
-        terminal: &Terminal,
-        file: Option<&Path>,
-        picture: &[u8],
-        existing: Existing,
-    ) -> Result<ExitStatus, CliError> {
+    fn bring_back(&self, terminal: &Terminal, file: Option<&Path>, picture: &[u8]) -> Result<ExitStatus, CliError> {
         if self.json || self.format.is_some() || self.options() != Options::default() {
             let why = "the scene file in a picture stays as it is; give no option but -o and --force";
             return Err(CliError::from(why));
         }
-        write(terminal, file, source::carried(&self.drawing, picture)?, existing)?;
+        destination::deliver(terminal, file, source::carried(&self.drawing, picture)?, self.force)?;
         Ok(ExitStatus::Done)
     }
 
@@ -201,18 +194,17 @@ impl Import {
         if let Some(format) = self.format {
             return Ok(format);
         }
-        let ending = self.drawing.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-        match ending.as_deref() {
-            Some("svg") => Ok(Format::Svg),
-            Some("dxf") => Ok(Format::Dxf),
-            Some("geojson" | "json") => Ok(Format::GeoJson),
-            Some("wkt") => Ok(Format::Wkt),
-            Some("csv") => Ok(Format::Contacts),
-            Some("svgz") => Err(format!(
+        match ending(&self.drawing).as_str() {
+            "svg" => Ok(Format::Svg),
+            "dxf" => Ok(Format::Dxf),
+            "geojson" | "json" => Ok(Format::GeoJson),
+            "wkt" => Ok(Format::Wkt),
+            "csv" => Ok(Format::Contacts),
+            "svgz" => Err(format!(
                 "{} is compressed; unpack it first: gunzip -c drawing.svgz > drawing.svg",
                 self.drawing.display()
             ).into()),
-            Some("dwg") => Err(format!(
+            "dwg" => Err(format!(
                 "{} is a DWG file, which only CAD programs read; save it there as DXF",
                 self.drawing.display()
             ).into()),
@@ -293,14 +285,6 @@ impl Import {
             page.line(&format!("  snapped {more} more; the largest move of all is {most}; --json lists them"));
         }
         terminal.notes(&page);
-    }
-}
-
-/// Writes a scene file or, without a path, prints it.
-fn write(terminal: &Terminal, file: Option<&Path>, scene: Vec<u8>, existing: Existing) -> Result<(), CliError> {
-    match file {
-        Some(path) => destination::write(&[(path.to_owned(), scene)], existing),
-        None => terminal.print_bytes(&scene),
     }
 }
 

@@ -73,8 +73,25 @@ struct CommandLine {
     command: Command,
 }
 
-#[derive(Debug, Subcommand)]
-enum Command {
+/// Declares the commands: an enum, and the function that runs one of them.
+macro_rules! commands {
+    ($($(#[$name:meta])* $command:ident($args:ty),)*) => {
+        #[derive(Debug, Subcommand)]
+        enum Command {
+            $($(#[$name])* $command($args),)*
+        }
+
+        impl Command {
+            fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+                match self {
+                    $(Command::$command(command) => command.run(terminal),)*
+                }
+            }
+        }
+    };
+}
+
+commands! {
     Render(Box<render::Render>),
     Figures(figures::Figures),
     Check(check::Check),
@@ -114,28 +131,7 @@ pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
     };
     signal::listen();
     let terminal = Terminal::new(line.output);
-    let ended = match line.command {
-        Command::Render(render) => render.run(&terminal),
-        Command::Figures(figures) => figures.run(&terminal),
-        Command::Check(check) => check.run(&terminal),
-        Command::Batch(batch) => batch.run(&terminal),
-        Command::Verify(verify) => verify.run(&terminal),
-        Command::Report(report) => report.run(&terminal),
-        Command::Accuracy(accuracy) => accuracy.run(&terminal),
-        Command::Schema(schema) => schema.run(&terminal),
-        Command::New(new) => new.run(&terminal),
-        Command::Plan(plan) => plan.run(&terminal),
-        Command::Import(import) => import.run(&terminal),
-        Command::Export(export) => export.run(&terminal),
-        Command::MdBook(mdbook) => mdbook.run(&terminal),
-        Command::Markdown(markdown) => markdown.run(&terminal),
-        Command::Shapes(shapes) => shapes.run(&terminal),
-        Command::Snapshot(snapshot) => snapshot.run(&terminal),
-        Command::Style(style) => style.run(&terminal),
-        Command::Completions(completions) => completions.run(&terminal),
-        Command::Manual(manual) => manual.run(&terminal),
-    };
-    let ending = ended.unwrap_or_else(|complaints| complain(&terminal, &complaints));
+    let ending = line.command.run(&terminal).unwrap_or_else(|complaints| complain(&terminal, &complaints));
     ending.number()
 }
 

@@ -1,7 +1,7 @@
 //! `drystone new`: writes an example, or an arch, wall, tower, doorway or lattice with given dimensions, as a scene to
 //! start from.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, Subcommand, ValueEnum};
@@ -10,7 +10,6 @@ use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::terminal::Terminal;
-use crate::pictures::output::file::Existing;
 use crate::sources::starter::{Arch, Doorway, LatticePile, Tower, Wall};
 
 /// Write a scene to start from: a small example, or an arch, wall, tower, doorway or lattice with your dimensions
@@ -172,20 +171,13 @@ impl New {
                 Example::Falls => crate::mechanics::scene::falling_starter().to_owned(),
             },
         };
-        match self.output.as_deref().filter(|path| *path != Path::new("-")) {
-            None => terminal.print_bytes(text.as_bytes()),
-            Some(path) => self.write(path, &text, terminal),
-        }?;
+        let file = destination::file(self.output.as_ref());
+        destination::deliver(terminal, file, text.into_bytes(), self.force)?;
+        if let Some(path) = file {
+            let (shown, picture) = (path.display(), path.with_extension("svg"));
+            let picture = picture.display();
+            terminal.note(&format!("wrote {shown}; see what it does with: drystone render {shown} -o {picture}"));
+        }
         Ok(ExitStatus::Done)
-    }
-
-    fn write(&self, path: &Path, text: &str, terminal: &Terminal) -> Result<(), CliError> {
-        let shown = path.display();
-        let existing = if self.force { Existing::Replace } else { Existing::Keep };
-        destination::write(&[(path.to_owned(), text.as_bytes().to_vec())], existing)?;
-        let picture = path.with_extension("svg");
-        terminal
-            .note(&format!("wrote {shown}; see what it does with: drystone render {shown} -o {}", picture.display()));
-        Ok(())
     }
 }

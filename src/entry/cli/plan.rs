@@ -1,6 +1,6 @@
 //! `drystone plan`: finds an order in which a structure can be built with a few robots, and writes it as steps.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -13,7 +13,6 @@ use crate::entry::request::AnalysisArgs;
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::scene::format::{SceneFile, parsed};
 use crate::mechanics::session::{PlanError, plan};
-use crate::pictures::output::file::Existing;
 
 /// Find an order of placing all blocks such that every step stands while robots hold single blocks
 ///
@@ -40,7 +39,7 @@ pub(crate) struct Plan {
 
 impl Plan {
     pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        let output = self.output.as_deref().filter(|path| *path != Path::new("-"));
+        let output = destination::file(self.output.as_ref());
         if let Some(path) = output {
             destination::refuse_overwrites(&[path.to_owned()], &[&self.scene])?;
         }
@@ -61,18 +60,11 @@ impl Plan {
                 return Ok(if is_proved { ExitStatus::Unstable } else { ExitStatus::Undecided });
             }
         };
-        let written = planned.to_json();
-        match output {
-            Some(path) => {
-                let existing = if self.force { Existing::Replace } else { Existing::Keep };
-                destination::write(&[(path.to_owned(), written.into_bytes())], existing)?;
-                let (scene, picture) = (path.display(), path.with_extension("svg"));
-                terminal.note(&format!(
-                    "wrote {scene}; draw it with: drystone render {scene} --kind build -o {}",
-                    picture.display()
-                ));
-            }
-            None => terminal.print_bytes(written.as_bytes())?,
+        destination::deliver(terminal, output, planned.to_json().into_bytes(), self.force)?;
+        if let Some(path) = output {
+            let (scene, picture) = (path.display(), path.with_extension("svg"));
+            let picture = picture.display();
+            terminal.note(&format!("wrote {scene}; draw it with: drystone render {scene} --kind build -o {picture}"));
         }
         Ok(ExitStatus::Done)
     }

@@ -23,11 +23,13 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Starts a progress bar with this number of steps. With [`BarVisibility::Never`], nothing is drawn.
-    pub(crate) fn begin(steps: usize, shown: BarVisibility) -> Progress {
-        match shown {
-            BarVisibility::Never => Progress { bar: ProgressBar::hidden(), waiter: None },
-            BarVisibility::WhenLong => Progress::on(steps, BAR_DELAY, ProgressDrawTarget::stderr()),
+    /// Starts a progress bar with this number of steps, which appears if the work takes longer than half a second and
+    /// `is_shown` is true.
+    pub(crate) fn begin(steps: usize, is_shown: bool) -> Progress {
+        if is_shown {
+            Progress::on(steps, BAR_DELAY, ProgressDrawTarget::stderr())
+        } else {
+            Progress { bar: ProgressBar::hidden(), waiter: None }
         }
     }
 
@@ -67,15 +69,6 @@ impl Progress {
     pub(crate) fn step(&self) {
         self.bar.inc(1);
     }
-}
-
-/// Whether a bar is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum BarVisibility {
-    /// Never shown: there is no terminal, or the user wants no bar.
-    Never,
-    /// Shown if the work takes longer than half a second.
-    WhenLong,
 }
 
 impl Drop for Progress {

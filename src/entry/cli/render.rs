@@ -9,11 +9,11 @@ use std::sync::Arc;
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use output::{Rendered, all, paths, summary, without_faults};
+use output::{Rendered, paths, summary, without_faults};
 
 use crate::entry::cli::destination::{self, Destination};
 use crate::entry::cli::draw::DrawArgs;
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, all_or_errors};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::missing_glyphs;
 use crate::entry::cli::picture::Format;
@@ -141,7 +141,7 @@ impl Render {
         if rendered.is_empty() {
             return Err(faults);
         }
-        let rendered = all(rendered)?;
+        let rendered = all_or_errors(rendered)?;
         let ending = rendered.iter().map(|r| r.ending).max();
         if self.draw.picture.draws_words(format) {
             missing_glyphs::warn(&sources, &fonts, terminal);
@@ -192,7 +192,7 @@ impl Render {
         fonts: &Fonts,
         terminal: &Terminal,
     ) -> Vec<Result<Rendered, CliError>> {
-        let progress = Progress::begin(2 * sources.len(), terminal.progress());
+        let progress = Progress::begin(2 * sources.len(), terminal.shows_progress());
         let mut analysis_options = self.draw.figure.level.options();
         analysis_options.margins = self.draw.figure.kind.needs_margins();
         match sources {

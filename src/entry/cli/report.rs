@@ -29,6 +29,7 @@ use crate::products::report::page::{Form, Piece, Refused, Report as Page};
 use crate::products::result::Timing;
 use crate::products::study::{TOLERANCES, study};
 use crate::products::wording::number::counted;
+use crate::read::file::ending;
 
 /// Write a report on scenes: verdicts with reasons, figures, forces, margins and proofs
 #[derive(Debug, Args)]
@@ -197,7 +198,7 @@ impl Report {
             margin_kinds: if self.margins { MarginKinds::ALL } else { MarginKinds::new(&DEFAULT_MARGINS) },
             ..self.level.options()
         };
-        let progress = Progress::begin(tasks.len(), terminal.progress());
+        let progress = Progress::begin(tasks.len(), terminal.shows_progress());
         let numbered: Vec<(usize, &Task)> = tasks.iter().enumerate().collect();
         let one = |(number, task): &(usize, &Task)| {
             progress.doing(&task.name());
@@ -317,8 +318,7 @@ impl Report {
 
 /// Returns the form of a report that the extension of its file selects.
 pub(crate) fn form_of(output: &Path) -> Option<Form> {
-    let ending = output.extension()?.to_string_lossy().to_ascii_lowercase();
-    match ending.as_str() {
+    match ending(output).as_str() {
         "html" => Some(Form::Html),
         "md" => Some(Form::Markdown),
         "pdf" => Some(Form::Pdf),

@@ -13,13 +13,14 @@ use super::destination;
 use super::error::CliError;
 use super::exit_status::ExitStatus;
 use super::page::Page;
-use super::progress::{BarVisibility, Progress};
+use super::progress::Progress;
 use super::source::stem;
 use super::terminal::Terminal;
 use crate::pictures::output::file::{Existing, WriteError};
 use crate::products::snapshot::outcome::{self, Acceptance, folders};
 use crate::products::snapshot::store::{self, Access};
 use crate::products::snapshot::{CheckOutcome, check, ci, discover, review, summary};
+use crate::read;
 
 /// Compare scenes and their pictures with stored references, and explain what changed
 ///
@@ -78,18 +79,18 @@ impl Snapshot {
         } else {
             Acceptance::Propose
         };
-        self.check_options(asks, acceptance).map_err(|c| vec![c])?;
+        self.check_options(asks, acceptance)?;
         let found = discover(&self.folders, self.only.as_deref())
             .map_err(|errors| errors.into_iter().map(CliError::CommandLine).collect::<Vec<_>>())?;
         if found.jobs.is_empty() && found.orphans.is_empty() && found.faults.is_empty() {
             return Err(vec![self.nothing_found_error()]);
         }
-        let shown = if terminal.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never };
+
         let files = found.jobs.iter().flat_map(|j| &j.parts).map(|p| &p.file);
         let folders = folders(files.chain(found.orphans.iter().map(|(file, _)| file)));
         let only_reads = acceptance == Acceptance::Propose && !self.prune;
         let turn = store::lock_folders(folders, if only_reads { Access::Read } else { Access::Write });
-        let progress = Progress::begin(found.jobs.len(), shown);
+        let progress = Progress::begin(found.jobs.len(), terminal.shows_progress());
         let mut report = check(found, &|name| {
             progress.doing(name);
             progress.step();
@@ -102,7 +103,7 @@ impl Snapshot {
         // Describe the changes before the results are accepted, so that the pages still show the accepted changes.
         let pages = self.pages(&report);
         let unwritten = report.store(acceptance);
-        self.write_reports(&report, pages).map_err(|c| vec![c])?;
+        self.write_reports(&report, pages)?;
         drop(turn);
         self.print_result(terminal, &report, &described, failing, acceptance)?;
         let mut errors: Vec<CliError> = pruned.err().into_iter().flatten().map(not_written).collect();
@@ -142,7 +143,7 @@ impl Snapshot {
 
     /// Writes the pages, and the JUnit file if `--junit` is given.
     fn write_reports(&self, report: &CheckOutcome, mut written: Vec<(PathBuf, Vec<u8>)>) -> Result<(), CliError> {
-        if let Some((picture, _)) = written.iter().find(|(file, _)| file.extension().is_some_and(|e| e == "png")) {
+        if let Some((picture, _)) = written.iter().find(|(file, _)| read::file::ending(file) == "png") {
             destination::make_folder(picture.parent().unwrap_or(Path::new("")))?;
         }
         if let Some(file) = &self.junit {
@@ -156,15 +157,14 @@ impl Snapshot {
     /// `--accept-in-ci`.
     fn check_options(&self, asks: bool, acceptance: Acceptance) -> Result<(), CliError> {
         let refuse = |why: &str| Err(CliError::CommandLine(why.to_owned()));
-        if let Some(Some(page)) = &self.review {
-            let html = page.extension().is_some_and(|e| e.eq_ignore_ascii_case("html"));
-            if !html {
-                return Err(CliError::CommandLine(format!(
-                    "--review {}: the page is an .html file; to review the changes in the terminal, put --review \
-                    after the folders",
-                    page.display()
-                )));
-            }
+        if let Some(Some(page)) = &self.review
+            && read::file::ending(page) != "html"
+        {
+            return Err(CliError::CommandLine(format!(
+                "--review {}: the page is an .html file; to review the changes in the terminal, put --review \
+                 after the folders",
+                page.display()
+            )));
         }
         if asks && acceptance != Acceptance::Propose {
             return refuse("--accept accepts all changes, and --review asks about each; leave one of them out");
@@ -208,14 +208,14 @@ impl Snapshot {
     ) -> Result<(), Vec<CliError>> {
         let mut page = Page::default();
         if self.json {
-            terminal.print_bytes(ci::json(report).as_bytes()).map_err(|c| vec![c])?;
+            terminal.print_bytes(ci::json(report).as_bytes())?;
         } else if self.github {
             ci::annotations(report).iter().for_each(|annotation| page.line(annotation));
         } else if !terminal.is_quiet() {
             described.iter().for_each(|line| page.line(line));
             report.pruned.iter().for_each(|file| page.line(&format!("{}: deleted", file.display())));
         }
-        terminal.print(&page).map_err(|c| vec![c])?;
+        terminal.print(&page)?;
         if acceptance != Acceptance::Propose {
             let accepted = failing - report.failing().count();
             terminal.note(&format!("{accepted} accepted; {}", report.summary()));
@@ -270,12 +270,12 @@ fn ask(terminal: &Terminal, report: &mut CheckOutcome) -> Result<ExitStatus, Vec
     let mut answers = io::stdin().lock().lines();
     'all: for snapshot in report.snapshots.iter_mut().filter(|s| !s.matches()) {
         number += 1;
-        show(terminal, snapshot, pictures).map_err(|c| vec![c])?;
+        show(terminal, snapshot, pictures)?;
         loop {
             let mut page = Page::default();
             page.words(&format!("{number} of {total}, {}: ", snapshot.name));
             page.literal("accept? y(es), n(o), s(kip), q(uit) ");
-            terminal.print(&page).map_err(|c| vec![c])?;
+            terminal.print(&page)?;
             // At the end of the input, no further snapshot is accepted.
             let Some(Ok(answer)) = answers.next() else {
                 break 'all;

@@ -154,10 +154,9 @@ pub(crate) fn candidates(paths: &[PathBuf]) -> Vec<PathBuf> {
 
 /// Returns the `.json` files in a folder, sorted by name.
 fn json_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let is_json = |file: &PathBuf| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     let listed = fs::read_dir(folder)?.map(|entry| entry.map(|e| e.path()));
     let mut listed = listed.collect::<io::Result<Vec<PathBuf>>>()?;
-    listed.retain(|file| is_json(file) && file.is_file());
+    listed.retain(|file| file::ending(file) == "json" && file.is_file());
     listed.sort();
     Ok(listed)
 }
@@ -201,8 +200,7 @@ pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, CliError> {
 /// Reads a scene file, or the one that a PNG or a PDF carries.
 pub(crate) fn scene_bytes(path: &Path) -> Result<Vec<u8>, CliError> {
     let bytes = bytes(path)?;
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-    if DRAWINGS.contains(&extension.as_str()) && !bytes.trim_ascii_start().starts_with(b"{") {
+    if DRAWINGS.contains(&file::ending(path).as_str()) && !bytes.trim_ascii_start().starts_with(b"{") {
         let shown = name(path);
         return Err(format!("{shown} is a drawing: drystone import {shown} -o scene.json makes a scene of it").into());
     }

@@ -91,10 +91,9 @@ impl StyleArgs {
 
 fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, CliError> {
     let name = path.display().to_string();
-    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    let notation = match ending.as_deref() {
-        Some("json") => Notation::Json,
-        Some("toml") => Notation::Toml,
+    let notation = match file::ending(path).as_str() {
+        "json" => Notation::Json,
+        "toml" => Notation::Toml,
         _ => {
             return Err(CliError::from(format!(
                 "--style {name}: a style file ends in .json or .toml; to draw normal and friction forces separately, use \

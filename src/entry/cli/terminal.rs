@@ -13,7 +13,7 @@ use terminal_size::{Height, Width};
 
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::page::Page;
-use crate::entry::cli::progress::BarVisibility;
+
 use crate::products::result::{Layout, quoted, refusal};
 
 /// The options for messages and colours.
@@ -72,11 +72,6 @@ impl Terminal {
     /// True if progress may be shown: standard error is a terminal, and `--quiet` is not given.
     pub(crate) fn shows_progress(&self) -> bool {
         !self.quiet && io::stderr().is_terminal()
-    }
-
-    /// Returns when a progress bar is shown.
-    pub(crate) fn progress(&self) -> BarVisibility {
-        if self.shows_progress() { BarVisibility::WhenLong } else { BarVisibility::Never }
     }
 
     /// True if standard output is a terminal. Binary data such as a PNG must not be written to a terminal.

@@ -95,6 +95,12 @@ impl Problem {
             place: wording.place,
         }
     }
+
+    /// A problem without a place in the file.
+    pub(crate) fn alone(code: Code, message: String, help: impl Into<String>) -> Problem {
+        let help = help.into();
+        Problem { code, path: String::new(), line: 0, column: 0, span: None, message, help, place: None }
+    }
 }
 
 impl fmt::Display for Problem {
@@ -300,16 +306,8 @@ fn inject_fault(name: &str) {
 fn inject_fault(_: &str) {}
 
 fn internal_fault() -> Problem {
-    Problem {
-        code: Code::InternalFault,
-        path: String::new(),
-        line: 0,
-        column: 0,
-        span: None,
-        message: "an internal error of the program occurred on this scene; the scene itself may be correct".into(),
-        help: "please report this error together with the scene".into(),
-        place: None,
-    }
+    let message = "an internal error of the program occurred on this scene; the scene itself may be correct";
+    Problem::alone(Code::InternalFault, message.into(), "please report this error together with the scene")
 }
 
 #[cfg(test)]

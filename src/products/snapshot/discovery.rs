@@ -158,12 +158,12 @@ impl SnapshotSearch {
             let name = entry.file_name().to_string_lossy().into_owned();
             // `file_type` does not follow symbolic links, which may form a cycle.
             let is_folder = entry.file_type().is_ok_and(|t| t.is_dir());
-            match path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).as_deref() {
+            match read::file::ending(&path).as_str() {
                 _ if name.starts_with('.') || name == "node_modules" => {}
                 _ if is_folder => self.add_folder(&path),
                 _ if name == SETTINGS_FILE => self.add_listed_scenes(folder),
-                Some("json") => self.candidates.push((path.clone(), path.with_extension(""))),
-                Some("txt" | "svg" | "png" | "hash") if !store::is_result_file(&name) => self.others.push(path),
+                "json" => self.candidates.push((path.clone(), path.with_extension(""))),
+                "txt" | "svg" | "png" | "hash" if !store::is_result_file(&name) => self.others.push(path),
                 _ => {}
             }
         }

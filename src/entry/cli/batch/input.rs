@@ -9,6 +9,7 @@ use crate::entry::cli::error::CliError;
 use crate::entry::cli::source;
 use crate::mechanics::batch::{Input, Record};
 use crate::products::result::Origin;
+use crate::read::file::ending;
 
 /// The inputs of a batch.
 #[derive(Debug)]
@@ -99,13 +100,11 @@ fn size(path: &Path) -> Option<u64> {
 
 /// True if the name of a file ends in `.json`: the file then contains a single scene, and not one scene per line.
 fn is_whole(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"))
+    ending(path) == "json"
 }
 
 fn is_scenes(path: &Path) -> bool {
-    let known = ["json", "ndjson", "jsonl"];
-    let ending = path.extension().unwrap_or_default();
-    known.iter().any(|k| ending.eq_ignore_ascii_case(k))
+    ["json", "ndjson", "jsonl"].contains(&ending(path).as_str())
 }
 
 /// Returns the scene files in the folder `path`, sorted by name. If `path` is not a folder, returns only `path`.

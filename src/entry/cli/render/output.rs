@@ -141,19 +141,6 @@ impl Render {
     }
 }
 
-/// Returns the values of all results, or all errors if there is at least one error.
-pub(super) fn all<T>(results: Vec<Result<T, CliError>>) -> Result<Vec<T>, Vec<CliError>> {
-    let mut good = Vec::with_capacity(results.len());
-    let mut complaints = Vec::new();
-    for result in results {
-        match result {
-            Ok(value) => good.push(value),
-            Err(complaint) => complaints.push(complaint),
-        }
-    }
-    if complaints.is_empty() { Ok(good) } else { Err(complaints) }
-}
-
 /// Returns how many frames have each verdict, in words: `6 frames: 5 stand, 1 falls`. For a single frame, returns only
 /// its verdict.
 pub(super) fn summary(analysis: &Analysis) -> String {
@@ -180,14 +167,14 @@ impl Render {
         let inputs: Vec<&Path> = targets.iter().copied().chain(self.draw.look.file()).collect();
         destination::refuse_overwrites(&paths, &inputs)?;
 
-        let mut pictures = Vec::new();
-        let mut complaints = Vec::new();
-        let mut drawn: Vec<PathBuf> = Vec::new();
-        for (path, target) in scenes.iter().zip(&targets_of(&paths, scenes.len())) {
+        let (mut rendered, mut drawn, mut complaints) = (Vec::new(), Vec::new(), Vec::new());
+        for (number, path) in scenes.iter().enumerate() {
             match self.sketch(path, &options, format, fonts)? {
                 Ok((sketch, picture)) => {
-                    drawn.push(target.clone());
-                    pictures.push(picture);
+                    // Standard output has no paths.
+                    drawn.extend(paths.get(number).cloned());
+                    let (ending, summary) = (ExitStatus::Done, "outlines and problems".to_owned());
+                    rendered.push(Rendered { bytes: vec![picture], ending, summary });
                     if !sketch.problems.list.is_empty() {
                         complaints.push(CliError::Scene { name: name(path), problems: sketch.problems });
                     }
@@ -195,7 +182,7 @@ impl Render {
                 Err(fault) => complaints.push(fault),
             }
         }
-        self.write_sketches(destination, drawn, pictures, terminal)?;
+        self.write(rendered, destination, &drawn, terminal)?;
         if complaints.is_empty() { Ok(ExitStatus::Done) } else { Err(complaints) }
     }
 
@@ -220,36 +207,4 @@ impl Render {
             Err(fault) => Ok(Err(fault)),
         }
     }
-
-    /// Writes all picture files or none. The destination may also be standard output.
-    fn write_sketches(
-        &self,
-        destination: &Destination,
-        paths: Vec<PathBuf>,
-        pictures: Vec<Vec<u8>>,
-        terminal: &Terminal,
-    ) -> Result<(), CliError> {
-        if let Destination::Stdout = destination {
-            for picture in &pictures {
-                terminal.print_bytes(picture)?;
-            }
-            return Ok(());
-        }
-        if let Destination::Folder(folder) = destination {
-            destination::make_folder(folder)?;
-        }
-        let files: Vec<(PathBuf, Vec<u8>)> = paths.iter().cloned().zip(pictures).collect();
-        destination::write(&files, Existing::Replace)?;
-        for path in &paths {
-            terminal.note(&format!("{}: outlines and problems", path.display()));
-        }
-        Ok(())
-    }
-}
-
-/// Returns a path for each of `count` scenes. For standard output, which has no paths, all of them are empty.
-fn targets_of(paths: &[PathBuf], count: usize) -> Vec<PathBuf> {
-    let mut paths = paths.to_vec();
-    paths.resize(count, PathBuf::new());
-    paths
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::Report;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::source;
+use crate::read::file::ending;
 
 /// One scene of a report, or two scenes that the report compares.
 pub(super) enum Task {
@@ -108,10 +109,10 @@ fn below(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
             let entry = entry.map_err(|e| unread(&folder, e))?;
             let kind = entry.file_type().map_err(|e| unread(&entry.path(), e))?;
             let path = entry.path();
-            let json = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
+
             if kind.is_dir() {
                 folders.push(path);
-            } else if json && path.is_file() {
+            } else if ending(&path) == "json" && path.is_file() {
                 files.push(path);
             }
         }
