@@ -52,6 +52,11 @@ pub fn quarter_turn(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
+/// Returns the smallest and the largest of some values; ∞ and −∞ if there are none.
+pub(crate) fn range_of(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

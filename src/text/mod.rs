@@ -232,6 +232,25 @@ where
     shown.join(", ") + &and_more(left_out)
 }
 
+/// Writes a finite number with at most `most` decimals, without zeros at their end and without −0.
+///
+/// # Panics
+/// Panics if the number is not finite.
+pub fn decimals(value: f64, most: usize) -> String {
+    assert!(value.is_finite(), "a drawing holds the number {value}; every number of a drawing is finite");
+    match without_zeros(&format!("{value:.most$}")) {
+        "-0" => "0".to_owned(),
+        text => text.to_owned(),
+    }
+}
+
+/// Leaves out zeros at the end of the decimals of a number: `2.50` becomes `2.5`, and `10.0` becomes `10`. A number
+/// with an exponent stays as it is.
+pub fn without_zeros(number: &str) -> &str {
+    let has_decimals = number.contains('.') && !number.contains('e');
+    if has_decimals { number.trim_end_matches('0').trim_end_matches('.') } else { number }
+}
+
 /// True if a line is a conflict marker of a version control system: it starts with seven `<`, `=` or `>`.
 pub fn is_conflict_mark(line: &str) -> bool {
     let marks = |c: char| line.chars().take(7).filter(|found| *found == c).count() == 7;

@@ -182,8 +182,7 @@ pub(in crate::mechanics) fn digits(x: f64) -> String {
         return format!("{:e}", format!("{x:.5e}").parse::<f64>().unwrap_or(x));
     }
     let decimals = (5.0 - magnitude).max(0.0) as usize;
-    let text = format!("{x:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
+    crate::text::without_zeros(&format!("{x:.decimals$}")).to_owned()
 }
 
 fn pair(p: [f64; 2]) -> String {

@@ -170,11 +170,7 @@ fn steps(outline: &Outline) -> String {
 
 /// Formats a number with at most three decimals and without an exponent, which TeX cannot read.
 fn number(value: f64) -> String {
-    assert!(value.is_finite(), "a drawing holds the number {value}; every number of a drawing is finite");
-    let mut text = format!("{value:.3}");
-    let kept = text.trim_end_matches('0').trim_end_matches('.').len();
-    text.truncate(kept);
-    if text == "-0" { "0".to_owned() } else { text }
+    crate::text::decimals(value, 3)
 }
 
 /// Replaces control characters, such as line breaks and changes of the writing direction, by spaces, so that the text

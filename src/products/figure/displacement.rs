@@ -275,8 +275,8 @@ fn far_amplitude(scene: &Scene, group: &[Motion]) -> f64 {
     bounded_amplitude(scene, group, |size| FAR_SHARE * size, FAR_ROTATION)
 }
 
-/// Returns the amplitude with which the fastest point of a group moves by `way` of the size of the group, unless a block
-/// would then turn by more than `rotation`, rad.
+/// Returns the amplitude with which the fastest point of a group moves by `way` of the size of the group, unless a
+/// block would then turn by more than `rotation`, rad.
 fn bounded_amplitude(scene: &Scene, group: &[Motion], way: impl Fn(f64) -> f64, rotation: f64) -> f64 {
     let fastest = group.iter().map(|m| m.fastest(scene)).fold(0.0, f64::max);
     let spin = group.iter().map(|m| m.spin.abs()).fold(0.0, f64::max);

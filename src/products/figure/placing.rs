@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use super::design::{Layer, Look, Mark, around, overlaps};
 use super::option::Options;
-use crate::geometry::{Aabb, BoxIndex, Point, convex_hull};
+use crate::geometry::{Aabb, BoxIndex, Point, convex_hull, range_of};
 use crate::pictures::drawing::symbol::Symbol;
 use crate::pictures::drawing::{
     Anchor, Colour, Face, Group, Item, Outline, PagePoint, PageRect, Path, Segment, Stroke, Text, text,
@@ -537,10 +537,7 @@ fn convex_meet(a: &[PagePoint], b: &[PagePoint]) -> bool {
         (0..edges.len()).any(|i| {
             let (from, to) = (edges[i], edges[(i + 1) % edges.len()]);
             let normal = (to.y - from.y, from.x - to.x);
-            let range = |points: &[PagePoint]| {
-                let heights = points.iter().map(|p| p.x * normal.0 + p.y * normal.1);
-                heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)))
-            };
+            let range = |points: &[PagePoint]| range_of(points.iter().map(|p| p.x * normal.0 + p.y * normal.1));
             let (of_a, of_b) = (range(a), range(b));
             of_a.1 < of_b.0 || of_b.1 < of_a.0
         })

@@ -30,7 +30,9 @@ use crate::products::figure::{self, Options};
 /// Compares scenes with their references, in parallel. Calls `done` with the name of each scene after it is compared.
 pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
     let one = |job: &Job| {
-        let findings = isolate(&shown(&job.path), || check_scene(job));
+        let findings = isolate(&shown(&job.path), || {
+            check_analysis(&Analysis::new(Arc::clone(&job.scene)), &job.parts, &job.settings)
+        });
         done(&job.name);
         match findings {
             Ok(findings) => Ok(Snapshot {
@@ -53,10 +55,6 @@ pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
     outcome
 }
 
-fn check_scene(job: &Job) -> Vec<Finding> {
-    check_analysis(&Analysis::new(Arc::clone(&job.scene)), &job.parts, &job.settings)
-}
-
 /// Compares the facts and drawings of an analysis with its references.
 pub(super) fn check_analysis(analysis: &Analysis, parts: &[Part], settings: &Settings) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -66,7 +64,7 @@ pub(super) fn check_analysis(analysis: &Analysis, parts: &[Part], settings: &Set
     for part in parts {
         if part.layer == Layer::Facts {
             let facts = Facts::new(analysis, settings.digits);
-            findings.extend(facts_finding(part, &facts));
+            findings.extend(text_finding(part, facts.text(), |text| Ok(Facts::read(text)?.changes(&facts))));
             continue;
         }
         let known = drawn.take().filter(|(p, _)| p.kind == part.kind && p.theme == part.theme);
@@ -109,10 +107,6 @@ fn reference(part: &Part) -> Result<Vec<u8>, (State, String)> {
         Ok(None) => Err((State::Missing, "this reference file does not exist yet".into())),
         Err(error) => Err((State::Unreadable, format!("it cannot be read: {error}"))),
     }
-}
-
-fn facts_finding(part: &Part, facts: &Facts) -> Option<Finding> {
-    text_finding(part, facts.text(), |text| Ok(Facts::read(text)?.changes(facts)))
 }
 
 /// Compares the new text `fresh` with its reference. Returns `None` if there is no change. The function `changes` is

@@ -8,6 +8,7 @@ use super::store;
 use crate::mechanics::analysis::{FALLS, STANDS, UNDECIDED};
 use crate::mechanics::scene::{Code, Problem, SceneError};
 use crate::pictures::output::file::WriteError;
+use crate::products::wording::number::counted;
 
 /// Largest number of changes of one file that a message lists. All further changes are only counted.
 pub(super) const MAX_LISTED_CHANGES: usize = 12;
@@ -267,13 +268,10 @@ impl CheckOutcome {
     pub fn summary(&self) -> String {
         let all = self.snapshots.len();
         let failing = self.failing().count();
-        let plural = if all == 1 { "" } else { "s" };
-        let mut words = format!("{all} snapshot{plural}: {} match", all - failing);
+        let mut words = format!("{}: {} match", counted(all, "snapshot"), all - failing);
         if failing > 0 {
-            let is = |state| move |s: &&Snapshot| s.findings.iter().any(|f| f.state == state);
-            let new = self.failing().filter(|s| s.findings.iter().all(|f| f.state == State::Missing));
-            let new = new.count();
-            let broken = self.failing().filter(is(State::Unreadable)).count();
+            let new = self.failing().filter(|s| s.findings.iter().all(|f| f.state == State::Missing)).count();
+            let broken = self.failing().filter(|s| s.findings.iter().any(|f| f.state == State::Unreadable)).count();
             words.push_str(&format!(", {} changed, {new} new", failing - new));
             if broken > 0 {
                 words.push_str(&format!(", {broken} with unreadable references"));

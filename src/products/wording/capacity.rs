@@ -1,7 +1,7 @@
 //! Describes in words which forces can act on a block without a collapse.
 
 use super::margin::Parameter;
-use super::number::{digits, quantity};
+use super::number::{place_beyond, quantity};
 use crate::mechanics::analysis::{CapacityShape, Cases, FALLS, LoadCapacity, STANDS, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::text;
@@ -49,14 +49,7 @@ fn forces(scene: &Scene, capacity: &LoadCapacity) -> String {
 pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
     // A coordinate that is only a rounding error relative to the block's size is written as 0.
     let bounds = scene.blocks[capacity.block.0].body.polygon.bounds();
-    let plain = |v: f64| {
-        if v.abs() <= 1e-9 * bounds.diagonal() { digits(0.0) } else { digits(scene.units.length().value_from_si(v)) }
-    };
-    let point = |k: usize| {
-        let at = capacity.at[k];
-        let unit = scene.units.length().symbol();
-        format!("({}, {}) {unit}", plain(at.x), plain(at.y))
-    };
+    let point = |k: usize| place_beyond(capacity.at[k], scene.units, 1e-9 * bounds.diagonal());
     let block = text::line(&scene.blocks[capacity.block.0].id);
     match (capacity.robot, capacity.at.len()) {
         (Some(robot), _) => {

@@ -3,6 +3,7 @@
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::Unit;
 use crate::mechanics::scene::format::UnitsEntry;
+use crate::text::without_zeros;
 
 /// A no-break space.
 pub const NO_BREAK: char = '\u{a0}';
@@ -11,82 +12,46 @@ pub const NO_BREAK: char = '\u{a0}';
 /// `250 µN`. If the scene file chooses the unit, no prefix is added: `0.0024 kN`.
 pub fn quantity(value: f64, unit: impl Into<Unit>) -> String {
     let unit = unit.into();
-    if unit.is_chosen {
-        in_chosen_unit(unit.value_from_si(value), &unit.symbol())
-    } else {
-        with_prefix(value, &unit.symbol())
-    }
-}
-
-/// Writes a value, given in `unit`, with three significant digits and this unit.
-fn in_chosen_unit(value: f64, unit: &str) -> String {
+    let (value, symbol) = (if unit.is_chosen { unit.value_from_si(value) } else { value }, unit.symbol());
     if value == 0.0 || !value.is_finite() {
-        return with_prefix(value, unit);
-    }
-    let rounded = three_digits(value);
-    let sign = if value < 0.0 { "−" } else { "" };
-    let size: f64 = rounded.parse().unwrap_or(value);
-    if (1e-4..1e7).contains(&size) {
-        // A float is formatted with as few digits as possible, so no digits follow the three significant ones.
-        return format!("{sign}{size} {unit}");
-    }
-    let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
-    let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
-    let exponent = superscript(exponent.parse().unwrap_or(0));
-    format!("{sign}{mantissa}×10{exponent} {unit}")
-}
-
-/// Writes a value with three significant digits, an SI prefix and its unit. A value that is not finite is written as
-/// `unlimited`.
-fn with_prefix(value: f64, unit: &str) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return if value == 0.0 { format!("0 {unit}") } else { format!("unlimited {unit}") };
+        return if value == 0.0 { format!("0 {symbol}") } else { format!("unlimited {symbol}") };
     }
     // Round in decimal before choosing the prefix, so that 999.7 N becomes 1 kN and not 1000 N.
-    let rounded = three_digits(value);
-    let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let sign = if value < 0.0 { "−" } else { "" };
+    let (mantissa, exponent) = three_digits(value);
     let prefixes = ["n", "µ", "m", "", "k", "M", "G"];
-    // Values from 0.01 to 1 get no prefix, because 0.05 N is easier to compare with 3 N than 50 mN is.
-    if (-2..0).contains(&exponent) {
-        let digits = mantissa.replace('.', "");
-        let zeros = "0".repeat((-1 - exponent) as usize);
-        return format!("{sign}0.{zeros}{} {unit}", digits.trim_end_matches('0'));
-    }
-    let step = exponent.div_euclid(3);
-    match usize::try_from(step + 3).ok().and_then(|i| prefixes.get(i)) {
-        Some(prefix) => {
-            let shift = exponent.rem_euclid(3) as usize;
-            let digits = mantissa.replace('.', "");
-            let (whole, part) = digits.split_at(1 + shift);
-            let part = part.trim_end_matches('0');
-            let dot = if part.is_empty() { "" } else { "." };
-            format!("{sign}{whole}{dot}{part} {prefix}{unit}")
-        }
+    let step = match exponent {
+        _ if unit.is_chosen => 0,
+        // Values from 0.01 to 1 get no prefix, because 0.05 N is easier to compare with 3 N than 50 mN is.
+        -2..0 => 0,
+        exponent => exponent.div_euclid(3),
+    };
+    let prefix = usize::try_from(step + 3).ok().and_then(|place| prefixes.get(place));
+    match prefix.filter(|_| !unit.is_chosen || (-4..7).contains(&exponent)) {
+        Some(prefix) => format!("{} {prefix}{symbol}", shifted(value, -3 * step)),
         None => {
-            let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
-            format!("{sign}{mantissa}×10{} {unit}", superscript(exponent))
+            let sign = if value < 0.0 { "−" } else { "" };
+            format!("{sign}{}×10{} {symbol}", without_zeros(&mantissa), superscript(exponent))
         }
     }
 }
 
-/// Writes the size of a quantity with three significant digits: `4.13e2`. All quantities in texts, tables and figures
-/// have these digits.
+/// Returns three significant digits of the size of a quantity, and their power of ten: `4.13` and 2. All quantities in
+/// texts, tables and figures have these digits.
 ///
 /// Two equal forces can differ by a rounding error of the solver (relative error below 1e-9). If one is just below 4.125
 /// and the other just above, they would be rounded differently. The factor moves both above this limit.
-fn three_digits(value: f64) -> String {
-    format!("{:.2e}", value.abs() * (1.0 + 1e-7))
+fn three_digits(value: f64) -> (String, i32) {
+    let rounded = format!("{:.2e}", value.abs() * (1.0 + 1e-7));
+    let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
+    (mantissa.to_owned(), exponent.parse().unwrap_or(0))
 }
 
 /// Writes a quantity in a column of a table: the digits that [`quantity`] writes, for a unit that is `10^-shift` times
 /// the unit of `value`.
 pub fn shifted(value: f64, shift: i32) -> String {
-    let rounded = three_digits(value);
-    let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
-    let exponent = exponent.parse().unwrap_or(0) + shift;
-    let size: f64 = format!("{mantissa}e{exponent}").parse().unwrap_or(0.0);
+    let (mantissa, exponent) = three_digits(value);
+    // A float is formatted with as few digits as possible, so no digits follow the three significant ones.
+    let size: f64 = format!("{mantissa}e{}", exponent + shift).parse().unwrap_or(0.0);
     let sign = if value < 0.0 && size > 0.0 { "−" } else { "" };
     format!("{sign}{size}")
 }
@@ -199,8 +164,7 @@ pub fn digits(x: f64) -> String {
     // `first` is the power of ten of the first significant digit. Three more digits follow.
     let first = libm::log10(size).floor() as i32;
     let decimals = usize::try_from(3 - first).unwrap_or(0);
-    let text = format!("{x:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+    without_zeros(&format!("{x:.decimals$}")).to_owned()
 }
 
 /// Writes a number with three significant digits, with trailing zeros: `2.40`, `0.334`, `12.0`.
@@ -238,7 +202,7 @@ fn three_beyond(x: f64, sign: f64) -> String {
     } else {
         three(written + sign * libm::exp10(libm::floor(libm::log10(x)) - 2.0))
     };
-    if safe.contains('.') { safe.trim_end_matches('0').trim_end_matches('.').to_owned() } else { safe }
+    without_zeros(&safe).to_owned()
 }
 
 /// Chooses one SI prefix for all numbers of a column. `largest` is the largest of these numbers. Returns the unit with
@@ -271,8 +235,12 @@ pub fn duration(seconds: f64) -> String {
 /// Writes the coordinates of a point in the length unit of the scene: `(2, 1.5) m`. A coordinate that is a rounding error
 /// of the other one is written as 0.
 pub fn place(p: Point, units: UnitsEntry) -> String {
+    place_beyond(p, units, 1e-9 * p.x.abs().max(p.y.abs()))
+}
+
+/// Like [`place`], but a coordinate of at most `noise`, in metres, is written as 0.
+pub fn place_beyond(p: Point, units: UnitsEntry, noise: f64) -> String {
     let unit = units.length();
-    let noise = 1e-9 * p.x.abs().max(p.y.abs());
     let [x, y] = [p.x, p.y].map(|x| digits(if x.abs() <= noise { 0.0 } else { unit.value_from_si(x) }));
     format!("({x}, {y}) {}", unit.symbol())
 }

@@ -105,7 +105,7 @@ const MAX_FREE_NAMED: usize = 8;
 /// Says which blocks may leave, what helps the others, and which robots a falling frame needs: phrases without a full
 /// stop.
 pub fn removable_phrases(scene: &Scene, rows: &[Removable]) -> Vec<String> {
-    let name = |block: crate::mechanics::scene::BlockId| scene.blocks[block.0].id.as_str();
+    let name = |block: BlockId| scene.blocks[block.0].id.as_str();
     let force = |newtons: f64| quantity(newtons, scene.units.force());
     let free = rows.iter().filter(|row| row.rest == Verdict::Stable);
     let free: Vec<String> = free.map(|row| name(row.block).to_owned()).collect();

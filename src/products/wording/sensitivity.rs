@@ -1,12 +1,13 @@
 //! Describes the sensitivity of a margin: which small changes of the scene change the margin most.
 
 use super::failure::{named, pair};
+use super::margin::side;
 use super::number::{amount, digits, round_below_in, three};
 use crate::geometry::Vector;
 use crate::mechanics::analysis::{
     CornerMoves, EndSensitivity, FALLS, FrameAnalysis, MarginKind, NoSensitivity, STANDS, Sensitivity, Slope,
 };
-use crate::mechanics::scene::{BlockId, Scene};
+use crate::mechanics::scene::{BlockId, BodyId, Scene};
 
 /// The largest distance by which a corner or a load is moved, as a fraction of the median length of the interfaces.
 const LENGTH_STEP_SHARE: f64 = 1.0 / 50.0;
@@ -137,7 +138,7 @@ fn corners(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, 
             words: format!(
                 "moving corner {} of {}{with} by {} {}",
                 corner.corner + 1,
-                named(scene, crate::mechanics::scene::BodyId::Block(corner.block)),
+                named(scene, BodyId::Block(corner.block)),
                 length(scene, step),
                 toward(direction)
             ),
@@ -157,7 +158,7 @@ fn others(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, o
     for (block, slope) in &end.weights {
         let amount = WEIGHT_STEP_SHARE * scene.blocks[block.0].weight;
         if let Some((side, rate)) = best_side(*slope, outward) {
-            let name = named(scene, crate::mechanics::scene::BodyId::Block(*block));
+            let name = named(scene, BodyId::Block(*block));
             let how = if side > 0.0 { "heavier" } else { "lighter" };
             let words = format!("making {name} 10 % {how}");
             add(Target::Weight(*block), words, amount, rate);
@@ -185,7 +186,7 @@ fn others(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, o
             let block = scene.loads[*load].block;
             let words = format!(
                 "moving the load on {} by {} {}",
-                named(scene, crate::mechanics::scene::BodyId::Block(block)),
+                named(scene, BodyId::Block(block)),
                 length(scene, step),
                 toward(direction)
             );
@@ -256,11 +257,7 @@ pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
 pub fn value(kind: MarginKind, value: f64) -> String {
     // Values below this are rounding errors.
     let value = if value.abs() < 1e-12 { 0.0 } else { value };
-    let side = match value {
-        v if v < 0.0 => " left",
-        v if v > 0.0 => " right",
-        _ => "",
-    };
+    let side = side(value);
     match kind {
         MarginKind::Tilt => format!("{}°{side}", three(value.abs())),
         MarginKind::HorizontalLoad => format!("{}{side}", three(value.abs())),
@@ -315,27 +312,17 @@ pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis, sensitivity: &Sensit
 
 /// Returns a phrase that explains why the sensitivity of a margin is not available.
 pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
-    let name = name(kind, true);
-    match reason {
+    let why = match reason {
         NoSensitivity::NotApplicable => {
-            format!(
-                "no sensitivity of the {name}: there are no loads on placed blocks, or the scene lists its contacts"
-            )
+            "there are no loads on placed blocks, or the scene lists its contacts".to_owned()
         }
-        NoSensitivity::Empty => {
-            format!("no sensitivity of the {name}: the frame {FALLS} at every value")
-        }
-        NoSensitivity::Unbounded => {
-            format!("no sensitivity of the {name}: the frame {STANDS} at every larger value")
-        }
-        NoSensitivity::RangeEnds => {
-            format!("no sensitivity of the {name}: the frame {STANDS} up to the end of the possible range")
-        }
-        NoSensitivity::Unconfirmed => {
-            format!("no sensitivity of the {name}: its value is not confirmed by a verdict")
-        }
-        _ => format!("no sensitivity of the {name}: the forces and the mechanism at its value could not be computed"),
-    }
+        NoSensitivity::Empty => format!("the frame {FALLS} at every value"),
+        NoSensitivity::Unbounded => format!("the frame {STANDS} at every larger value"),
+        NoSensitivity::RangeEnds => format!("the frame {STANDS} up to the end of the possible range"),
+        NoSensitivity::Unconfirmed => "its value is not confirmed by a verdict".to_owned(),
+        _ => "the forces and the mechanism at its value could not be computed".to_owned(),
+    };
+    format!("no sensitivity of the {}: {why}", name(kind, true))
 }
 
 /// Returns the number of corners, weights, friction coefficients and loads for which the derivative jumps and its

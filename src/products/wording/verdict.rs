@@ -9,6 +9,8 @@ use crate::mechanics::scene::Scene;
 const MAX_FAILURES_IN_SENTENCE: usize = 4;
 /// Largest number of failures that the line below a figure names. This line has less space.
 const MAX_FAILURES_BELOW_FIGURE: usize = 3;
+/// Why a frame that stands may fall all the same.
+const ONLY_BY_WEDGING: &str = "only by wedging: its loads alone do not build up the forces that hold it";
 
 /// Writes how many frames or scenes have a verdict: `1 stands`, `3 fall`.
 pub fn counted(count: usize, verdict: Verdict) -> String {
@@ -45,7 +47,7 @@ pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         sentences.push(format!("missing: {}", listed(&shortened(parts, MAX_FAILURES_BELOW_FIGURE))));
     }
     if frame_analysis.only_by_wedging == Some(true) {
-        sentences.push("only by wedging: its loads alone do not build up the forces that hold it".to_owned());
+        sentences.push(ONLY_BY_WEDGING.to_owned());
     }
     sentences.join("; ")
 }
@@ -59,7 +61,7 @@ pub fn reasons(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
     let failures: Vec<String> = failures.map(|f| missing_sentence(scene, f)).collect();
     parts.extend(shortened(failures, MAX_FAILURES_IN_SENTENCE));
     if frame_analysis.only_by_wedging == Some(true) {
-        parts.push("only by wedging: its loads alone do not build up the forces that hold it".to_owned());
+        parts.push(ONLY_BY_WEDGING.to_owned());
     }
     if frame_analysis.verdict == Verdict::Undecided {
         parts.push(frame_analysis.doubt());

@@ -5,7 +5,7 @@
 //! Reference: Kamenev 1992; Lotov, Bushenkov and Kamenev 2004 (estimate refinement).
 
 use super::probe::{CarriedForce, Farthest, HalfPlane, Probe, RELATIVE_TOL};
-use crate::geometry::{Vector, cross};
+use crate::geometry::{Vector, cross, range_of};
 
 /// The farthest force in a direction, and the half-plane of the motion that excludes farther forces, if this motion has
 /// a proof.
@@ -38,8 +38,7 @@ pub(super) fn tolerance(probe: &Probe, size: f64) -> f64 {
 /// Returns the size of a set of forces, N: the larger side of its bounding box.
 pub(super) fn size(samples: &[Sample]) -> f64 {
     let extent = |axis: usize| {
-        let values = samples.iter().map(|s| s.carried.force[axis]);
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        let (low, high) = range_of(samples.iter().map(|s| s.carried.force[axis]));
         (high - low).max(0.0)
     };
     extent(0).max(extent(1))

@@ -280,7 +280,6 @@ fn quoted(text: &str) -> String {
 }
 
 fn unknown(path: &Path, message: String, help: String) -> Box<Problem> {
-    let code = Code::UnknownName;
-    let message = format!("--set: {message}");
-    Box::new(Problem { code, path: path.to_string(), line: 0, column: 0, span: None, message, help, place: None })
+    let problem = Problem::alone(Code::UnknownName, format!("--set: {message}"), help);
+    Box::new(Problem { path: path.to_string(), ..problem })
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::Resolution;
 use super::free_edges::{FreeEdges, Stretch};
-use crate::geometry::{Point, Vector, cross, quarter_turn, sin_cos_degrees};
+use crate::geometry::{Point, Vector, cross, quarter_turn, range_of, sin_cos_degrees};
 use crate::mechanics::scene::finding::Findings;
 use crate::mechanics::scene::format::{BlockSide, DepthEntry, LoadEntry, PressureEntry};
 use crate::mechanics::scene::name::Names;
@@ -180,7 +180,7 @@ fn side_of(block: &Block, id: BlockId, side: BlockSide) -> Vec<Stretch> {
     let edges: Vec<_> = block.body.polygon.edges().filter(|edge| edge.outward().dot(&outward) >= MIN_COSINE).collect();
     let place = |point: Point| point.coords.dot(&along);
     let ends = edges.iter().flat_map(|edge| [place(edge.from), place(edge.to)]);
-    let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+    let (low, high) = range_of(ends);
     let share = |point: Point| if high > low { (place(point) - low) / (high - low) } else { 0.0 };
     let stretches = edges.iter();
     stretches

@@ -2,17 +2,14 @@
 //! `numbered` converts a line of text to the outlines of its letters, at their positions in the picture.
 
 use crate::pictures::drawing::{Outline, PagePoint, Segment};
+use crate::text::decimals;
 
 /// Formats a number with at most two decimals (1/100 pixel), without trailing zeros and without −0.
 ///
 /// # Panics
 /// Panics if the number is not finite.
 pub(super) fn number(value: f64) -> String {
-    assert!(value.is_finite(), "a drawing holds the number {value}; every number of a drawing is finite");
-    let mut text = format!("{value:.2}");
-    let kept = text.trim_end_matches('0').trim_end_matches('.').len();
-    text.truncate(kept);
-    if text == "-0" { "0".to_owned() } else { text }
+    decimals(value, 2)
 }
 
 /// Appends the SVG path data of an outline to `data`.

@@ -226,10 +226,5 @@ pub(super) fn places(analysis: &Analysis, block: BlockId, contacts: &[&Contact])
 
 /// Formats a coordinate with at most three decimals, without trailing zeros.
 fn coordinate(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    match text {
-        "-0" | "" => "0".to_owned(),
-        text => text.replace('-', "−"),
-    }
+    crate::text::decimals(value, 3).replace('-', "−")
 }

@@ -17,7 +17,7 @@ use difference::{Settings, Shapes};
 use super::hover::onto_scene;
 use super::row::file_name;
 use super::{Entry, Figure, File, Grid, ReportOptions, Row, Section, SheetPart, bullet, sheet};
-use crate::geometry::Point;
+use crate::geometry::{Point, range_of};
 use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::mechanics::scene::format::UnitsEntry;
@@ -107,10 +107,17 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
         sections.push(section);
     }
     for number in counts[0].min(counts[1])..counts[0].max(counts[1]) {
-        let side = if number < counts[0] { was } else { is };
-        let drawing = figure::panels_of(side.analysis, Kind::Forces, &options, &[number]).pop();
-        let (sentence, section) = unpaired_step(side, number, drawing, only_in(counts, number));
-        stated.push(sentence);
+        let (side, why) = if number < counts[0] {
+            (was, "Only the first scene has this step.")
+        } else {
+            (is, "Only the second scene has this step.")
+        };
+        let found = &side.analysis.frames[number];
+        let drawings = figure::panels_of(side.analysis, Kind::Forces, &options, &[number]);
+        let figures = drawings.into_iter().map(|drawing| plate(side, found, drawing)).collect();
+        let mut section = sheet::empty(&side.analysis.scene, number, found.verdict);
+        section.parts = vec![SheetPart::Text(why.to_owned()), SheetPart::Figures(figures)];
+        stated.push(why.to_owned());
         sections.push(section);
     }
     for section in &mut sections {
@@ -170,21 +177,6 @@ fn plate(side: Side<'_>, frame_analysis: &FrameAnalysis, drawing: Drawing) -> Fi
         touches: Vec::new(),
         subject: None,
     }
-}
-
-fn only_in(counts: [usize; 2], number: usize) -> &'static str {
-    if number < counts[0] { "Only the first scene has this step." } else { "Only the second scene has this step." }
-}
-
-/// Makes the sentence and the report section for a step that only one scene has. `why` is the sentence, which states
-/// which scene has the step.
-fn unpaired_step(side: Side<'_>, number: usize, drawing: Option<Drawing>, why: &str) -> (String, Section) {
-    let (scene, frame_analysis) = (&side.analysis.scene, &side.analysis.frames[number]);
-    let mut section = sheet::empty(scene, number, frame_analysis.verdict);
-    section.parts.push(SheetPart::Text(why.to_owned()));
-    let figures = drawing.map(|d| plate(side, frame_analysis, d)).into_iter();
-    section.parts.push(SheetPart::Figures(figures.collect()));
-    (why.to_owned(), section)
 }
 
 /// A step that both scenes have.
@@ -420,8 +412,7 @@ const RING_RADIUS_LIMITS: (f64, f64) = (3.0, 9.0);
 fn radius(places: &[PagePoint]) -> f64 {
     let (least, most) = RING_RADIUS_LIMITS;
     let span = |of: fn(&PagePoint) -> f64| {
-        let (low, high) =
-            places.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        let (low, high) = range_of(places.iter().map(of));
         (high - low).max(0.0)
     };
     let (width, height) = (span(|p| p.x), span(|p| p.y));

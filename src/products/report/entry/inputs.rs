@@ -2,7 +2,7 @@
 
 use super::Grid;
 use super::unit::Units;
-use crate::geometry::Vector;
+use crate::geometry::{Vector, range_of};
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{BlockId, Limits, Load, Scene};
 use crate::products::wording::number::{amount, counted, digits, place, quantity, tenths};
@@ -13,24 +13,14 @@ const MAX_ROWS: usize = 12;
 /// A row of the table of loads names at most this many blocks.
 const MAX_NAMED: usize = 3;
 
-/// The lowest and the highest of several values.
-#[derive(Clone, Copy)]
-struct ValueRange(f64, f64);
-
-impl ValueRange {
-    fn add(range: Option<ValueRange>, value: f64) -> Option<ValueRange> {
-        Some(match range {
-            None => ValueRange(value, value),
-            Some(ValueRange(low, high)) => ValueRange(low.min(value), high.max(value)),
-        })
-    }
-
-    fn words(range: Option<ValueRange>) -> String {
-        match range.map(|ValueRange(low, high)| (digits(low), digits(high))) {
-            None => "–".to_owned(),
-            Some((low, high)) if low == high => low,
-            Some((low, high)) => format!("{low} to {high}"),
-        }
+/// Writes the lowest and the highest of several values.
+fn range(values: impl Iterator<Item = f64>) -> String {
+    match range_of(values) {
+        (low, high) if low > high => "–".to_owned(),
+        (low, high) => match [low, high].map(digits) {
+            [low, high] if low == high => low,
+            [low, high] => format!("{low} to {high}"),
+        },
     }
 }
 
@@ -63,12 +53,12 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
                     format!("as {stone}")
                 }),
         };
-        let mut densities = blocks.iter().filter_map(|id| density(scene, *id));
-        let mut frictions = blocks.iter().map(|id| scene.blocks[id.0].body.friction);
-        let range = |values: &mut dyn Iterator<Item = f64>| ValueRange::words(values.fold(None, ValueRange::add));
-        let mut cells = vec![name, blocks.len().to_string(), range(&mut densities)];
-        cells.extend(has_masses.then(|| range(&mut blocks.iter().filter_map(mass))));
-        cells.extend([range(&mut frictions), newtons.write(weight(blocks))]);
+        let densities = blocks.iter().filter_map(|id| density(scene, *id));
+        let frictions = blocks.iter().map(|id| scene.blocks[id.0].body.friction);
+
+        let mut cells = vec![name, blocks.len().to_string(), range(densities)];
+        cells.extend(has_masses.then(|| range(blocks.iter().filter_map(mass))));
+        cells.extend([range(frictions), newtons.write(weight(blocks))]);
         grid.add("", cells);
     }
     grid
@@ -223,8 +213,7 @@ pub(super) fn facts(scene: &Scene, number: usize) -> Grid {
         add("loads", "none but the weights".to_owned());
     }
     add("thickness, into the page", amount(scene.thickness, scene.units.length()));
-    let frictions = scene.ground.iter().map(|g| g.body.friction);
-    let friction = ValueRange::words(frictions.fold(None, ValueRange::add));
+    let friction = range(scene.ground.iter().map(|g| g.body.friction));
     let ground = match scene.ground.len() {
         0 => "none".to_owned(),
         parts => format!("{}, fixed; friction μ {friction}", counted(parts, "part")),

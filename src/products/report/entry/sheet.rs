@@ -88,16 +88,10 @@ pub(super) fn sheet(
     });
     first.parts.push(SheetPart::Figures(outline.into_iter().collect()));
     first.parts.extend(given(scene, number, Units::new(scene, found)));
-    let mut titled = |heading: &str, grid: Grid, note: Option<String>| {
-        if !grid.lines.is_empty() {
-            first.parts.push(SheetPart::Heading(heading.to_owned()));
-            first.parts.push(SheetPart::Table(grid));
-            first.parts.extend(note.map(SheetPart::Note));
-        }
-    };
-    titled("Reactions", balance::support_forces(analysis, number), other_balances(analysis, number));
-    titled("Margins", margins(scene, found), Some(bullet::SHAPES_LEGEND.to_owned()));
-    titled("Load cases", cases(scene, found), None);
+    let reactions = balance::support_forces(analysis, number);
+    first.parts.extend(titled("Reactions", reactions, other_balances(analysis, number)));
+    first.parts.extend(titled("Margins", margins(scene, found), Some(bullet::SHAPES_LEGEND.to_owned())));
+    first.parts.extend(titled("Load cases", cases(scene, found), None));
     let notes = found.margins.iter().flat_map(|margins| &margins.intervals.notes);
     first.parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
 
@@ -124,10 +118,7 @@ pub(super) fn sheet(
     last.extend(remarks(scene, found));
     parts.push(SheetPart::Heading("Assumptions and proof".to_owned()));
     parts.push(SheetPart::Note(last.join(" ")));
-    if let Some(steps) = steps {
-        parts.push(SheetPart::Heading("Steps".to_owned()));
-        parts.push(SheetPart::Table(steps));
-    }
+    parts.extend(steps.into_iter().flat_map(|steps| titled("Steps", steps, None)));
     parts.retain(|part| !matches!(part, SheetPart::Note(words) if words.is_empty()));
     [first, second]
 }
@@ -258,28 +249,31 @@ fn figures(
     figures
 }
 
+/// Returns a table with its heading and a note; empty if the table has no rows.
+fn titled(heading: &str, grid: Grid, note: Option<String>) -> Vec<SheetPart> {
+    if grid.lines.is_empty() {
+        return Vec::new();
+    }
+    let mut parts = vec![SheetPart::Heading(heading.to_owned()), SheetPart::Table(grid)];
+    parts.extend(note.map(SheetPart::Note));
+    parts
+}
+
 /// Makes two columns with the inputs of the frame with index `number`, and below them a long table of loads.
 fn given(scene: &Scene, number: usize, units: Units) -> Vec<SheetPart> {
-    let titled = |heading: &str, grid: Grid| {
-        if grid.lines.is_empty() {
-            Vec::new()
-        } else {
-            vec![SheetPart::Heading(heading.to_owned()), SheetPart::Table(grid)]
-        }
-    };
-    let mut left = titled("Materials", inputs::materials(scene, number, units));
+    let mut left = titled("Materials", inputs::materials(scene, number, units), None);
     let loads = inputs::loads(scene, number, units);
     // In a narrow column, a row of loads has three lines.
     let is_long = loads.lines.len() > MAX_NARROW_LOADS;
-    let loads = titled("Loads", loads);
+    let loads = titled("Loads", loads, None);
     let below = if is_long {
         loads
     } else {
         left.extend(loads);
         Vec::new()
     };
-    left.extend(titled("Robots", inputs::robots(scene, number)));
-    let columns = SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(scene, number))]);
+    left.extend(titled("Robots", inputs::robots(scene, number), None));
+    let columns = SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(scene, number), None)]);
     std::iter::once(columns).chain(below).collect()
 }
 
@@ -329,9 +323,6 @@ fn cases(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
 
 /// Returns the table of the movements of supports, if there are any.
 fn movements(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
-    if frame_analysis.movements.is_empty() {
-        return Vec::new();
-    }
     let mut grid = Grid::new("", &["if", "force on the support", "joints that open most"]);
     for moved in &frame_analysis.movements {
         let [force, joints] = match &moved.outcome {
@@ -345,8 +336,7 @@ fn movements(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
     let note = "Of all forces that balance the structure, those whose force on the support does least work on the \
                 movement (H to the right, V upwards). Small displacements, per millimetre of the movement; a joint that \
                 slides also opens, by μ times the slip.";
-    let heading = SheetPart::Heading("Movements of supports".to_owned());
-    vec![heading, SheetPart::Table(grid), SheetPart::Note(note.to_owned())]
+    titled("Movements of supports", grid, Some(note.to_owned()))
 }
 
 fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {

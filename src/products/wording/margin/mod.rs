@@ -10,6 +10,7 @@ pub use governing::headline;
 pub use governing::{Governing, governing};
 
 use super::number::{amount, digits, three_down, three_up};
+use crate::geometry::range_of;
 use crate::mechanics::analysis::{
     End, Exclusion, FALLS, FrameAnalysis, Interval, Intervals, STANDS, UNDECIDED, Verdict,
 };
@@ -78,13 +79,18 @@ impl Parameter {
         if !self.is_signed() {
             return format!("{}{unit}", number(value));
         }
-        let side = match value {
-            v if v < 0.0 => " left",
-            v if v > 0.0 => " right",
-            _ => "",
-        };
+        let side = side(value);
         let past = if self == Parameter::Tilt && value.abs() > 180.0 { " (past upside down)" } else { "" };
         format!("{}{unit}{side}{past}", number(value.abs()))
+    }
+}
+
+/// Returns the word in place of the sign of a tilt or a horizontal load; empty for 0.
+pub(super) fn side(value: f64) -> &'static str {
+    match value {
+        v if v < 0.0 => " left",
+        v if v > 0.0 => " right",
+        _ => "",
     }
 }
 
@@ -401,10 +407,7 @@ fn most_important(list: &[StatedMargin<'_>]) -> Option<usize> {
 /// interfaces.
 fn friction(frame_analysis: &FrameAnalysis) -> Option<(f64, f64)> {
     let all = frame_analysis.contacts.iter().map(|contact| contact.interface.friction);
-    all.fold(None, |range, friction| match range {
-        None => Some((friction, friction)),
-        Some((low, high)) => Some((friction.min(low), friction.max(high))),
-    })
+    (!frame_analysis.contacts.is_empty()).then(|| range_of(all))
 }
 
 /// Returns the position of the present friction coefficients relative to the interval of the friction margin. This
