@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::entry::cli::destination;
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::progress::Progress;
 use crate::entry::cli::source;
@@ -45,7 +45,7 @@ fn tolerance(typed: &str) -> Result<f64, String> {
 type Form = fn(&[Case]) -> Result<String, ChartError>;
 
 impl Accuracy {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let mut forms = Vec::with_capacity(self.output.len());
         for path in &self.output {
             forms.push((path, form(path)?));

@@ -13,7 +13,7 @@ use std::thread;
 use clap::Args;
 
 use crate::entry::cli::destination;
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::missing_glyphs;
 use crate::entry::cli::picture::{Format, Picture};
@@ -89,7 +89,7 @@ fn fields(typed: &str) -> Result<Fields, String> {
 }
 
 impl Batch {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let form = self.form()?;
         let work = self.work(form)?;
         let inputs = input::of(&self.inputs, self.render.is_some())?;

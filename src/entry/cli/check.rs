@@ -7,7 +7,7 @@ use std::sync::Arc;
 use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::page::Page;
 use crate::entry::cli::progress::Progress;
@@ -58,10 +58,8 @@ pub(crate) struct Check {
 }
 
 impl Check {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
-        for file in source::foreign_files(&self.scenes)? {
-            terminal.note(&format!("{}: left out, because it has no key \"drystone\"", source::name(&file)));
-        }
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
+        source::note_foreign_files(&self.scenes, terminal)?;
         let reading = Progress::begin(1, terminal.shows_progress());
         reading.doing("reading");
         let outcomes = source::read_each(&self.scenes, self.what.frame, &self.what.level)?;

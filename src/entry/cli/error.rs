@@ -31,6 +31,9 @@ const EXCERPT_COLUMNS: usize = 120;
 /// The least width of an excerpt in columns.
 const MIN_EXCERPT_COLUMNS: usize = 12;
 
+/// How a command ends: with an exit status, or with all its errors.
+pub(crate) type Ended = Result<ExitStatus, Vec<CliError>>;
+
 /// An error that ends the command, or only the work on one scene.
 #[derive(Debug)]
 pub(crate) enum CliError {

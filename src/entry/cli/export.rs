@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::entry::cli::destination;
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
@@ -39,7 +39,7 @@ pub(crate) struct Export {
 }
 
 impl Export {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let file = destination::file(self.output.as_ref());
         if let Some(file) = file {
             check_name(file)?;

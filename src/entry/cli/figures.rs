@@ -7,7 +7,7 @@ use clap::Args;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::entry::cli::destination::{self, Destination};
-use crate::entry::cli::error::{CliError, all_or_errors};
+use crate::entry::cli::error::{CliError, Ended, all_or_errors};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::picture::{Format, Picture};
 use crate::entry::cli::style_args::StyleArgs;
@@ -49,7 +49,7 @@ pub(crate) struct Shapes {
 type Files = Vec<(PathBuf, Vec<u8>)>;
 
 impl Figures {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let theme = self.look.theme()?;
         let plates = figure::gallery(&theme);
         let formats: Vec<Format> = match self.format {
@@ -96,7 +96,7 @@ fn captions_of(plates: &[Plate]) -> String {
 }
 
 impl Shapes {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let theme = self.look.theme()?;
         let destination = Destination::from_path(&self.output);
         let format = destination.format(self.picture.requested_format())?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use crate::entry::cli::destination;
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::page::Page;
 use crate::entry::cli::source;
@@ -110,7 +110,7 @@ pub(crate) struct Import {
 }
 
 impl Import {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let file = destination::file(self.output.as_ref());
         self.check_options(file)?;
 

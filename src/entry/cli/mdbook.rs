@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use crate::entry::cli::destination;
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::report::stem_of;
 use crate::entry::cli::source;
@@ -36,7 +36,7 @@ enum MdBookCommand {
 }
 
 impl MdBook {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         if let Some(MdBookCommand::Supports { renderer }) = &self.command {
             return Ok(if renderer == "html" { ExitStatus::Done } else { ExitStatus::Unstable });
         }
@@ -65,7 +65,7 @@ pub(crate) struct Markdown {
 }
 
 impl Markdown {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let text = text(&self.input)?;
         let (text, pictures) = book::illustrate_text(&text, &self.input, &stem_of(&self.output))
             .map_err(|problems| CliError::Book(problems.0))?;

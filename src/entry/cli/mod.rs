@@ -51,7 +51,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::terminal::{OutputArgs, Terminal};
 
@@ -82,7 +82,7 @@ macro_rules! commands {
         }
 
         impl Command {
-            fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+            fn run(&self, terminal: &Terminal) -> Ended {
                 match self {
                     $(Command::$command(command) => command.run(terminal),)*
                 }

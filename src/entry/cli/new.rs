@@ -7,7 +7,7 @@ use clap::builder::RangedU64ValueParser;
 use clap::{Args, Subcommand, ValueEnum};
 
 use crate::entry::cli::destination;
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::Ended;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::terminal::Terminal;
 use crate::sources::starter::{Arch, Doorway, LatticePile, Tower, Wall};
@@ -35,6 +35,14 @@ enum Example {
     Falls,
 }
 
+/// The friction of a structure.
+#[derive(Clone, Copy, Debug, Args)]
+struct Friction {
+    /// Friction coefficient
+    #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
+    friction: f64,
+}
+
 #[derive(Debug, Subcommand)]
 enum Structure {
     /// A round arch
@@ -48,9 +56,8 @@ enum Structure {
         /// Thickness from the inner to the outer face in metres
         #[arg(long, value_name = "M", default_value = "0.4", value_parser = length)]
         thickness: f64,
-        /// Friction coefficient
-        #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
-        friction: f64,
+        #[command(flatten)]
+        friction: Friction,
     },
     /// A wall in running bond
     Wall {
@@ -66,9 +73,8 @@ enum Structure {
         /// Height of a course in metres
         #[arg(long, value_name = "M", default_value = "0.08", value_parser = length)]
         height: f64,
-        /// Friction coefficient
-        #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
-        friction: f64,
+        #[command(flatten)]
+        friction: Friction,
     },
     /// A tower of blocks that leans to the right
     Tower {
@@ -84,9 +90,8 @@ enum Structure {
         /// Shift of each block to the right, relative to the block below, in metres
         #[arg(long, value_name = "M", default_value = "0.1", value_parser = at_least_zero)]
         lean: f64,
-        /// Friction coefficient
-        #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
-        friction: f64,
+        #[command(flatten)]
+        friction: Friction,
     },
     /// Two jambs and a lintel, in three steps with a robot
     Doorway {
@@ -105,9 +110,8 @@ enum Structure {
         /// Height of the lintel in metres
         #[arg(long, value_name = "M", default_value = "0.3", value_parser = length)]
         lintel: f64,
-        /// Friction coefficient
-        #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
-        friction: f64,
+        #[command(flatten)]
+        friction: Friction,
     },
     /// A pile of triangles on the triangular lattice
     Lattice {
@@ -117,9 +121,8 @@ enum Structure {
         /// Edge length of a cell in metres
         #[arg(long, value_name = "M", default_value = "1", value_parser = length)]
         side: f64,
-        /// Friction coefficient
-        #[arg(long, value_name = "MU", default_value = "0.7", value_parser = at_least_zero)]
-        friction: f64,
+        #[command(flatten)]
+        friction: Friction,
     },
 }
 
@@ -144,26 +147,28 @@ fn at_least_zero(typed: &str) -> Result<f64, String> {
 impl Structure {
     fn text(&self) -> String {
         let scene = match *self {
-            Structure::Arch { voussoirs, span, thickness, friction } => {
+            Structure::Arch { voussoirs, span, thickness, friction: Friction { friction } } => {
                 Arch { voussoirs, span, thickness, friction }.scene()
             }
-            Structure::Wall { courses, bricks, length, height, friction } => {
+            Structure::Wall { courses, bricks, length, height, friction: Friction { friction } } => {
                 Wall { courses, bricks, length, height, friction }.scene()
             }
-            Structure::Tower { blocks, width, height, lean, friction } => {
+            Structure::Tower { blocks, width, height, lean, friction: Friction { friction } } => {
                 Tower { blocks, width, height, lean, friction }.scene()
             }
-            Structure::Doorway { courses, width, height, jamb, lintel, friction } => {
+            Structure::Doorway { courses, width, height, jamb, lintel, friction: Friction { friction } } => {
                 Doorway { courses, width, height, jamb, lintel, friction }.scene()
             }
-            Structure::Lattice { rows, side, friction } => LatticePile { rows, side, friction }.scene(),
+            Structure::Lattice { rows, side, friction: Friction { friction } } => {
+                LatticePile { rows, side, friction }.scene()
+            }
         };
         scene.to_json()
     }
 }
 
 impl New {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let text = match &self.kind {
             Some(kind) => kind.text(),
             None => match self.example {

@@ -9,7 +9,7 @@ use clap_mangen::Man;
 
 use crate::entry::cli::CommandLine;
 use crate::entry::cli::destination;
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::value::ThemeName;
@@ -29,7 +29,7 @@ pub(crate) struct Schema {
 }
 
 impl Schema {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let text = if self.result { result::schema() } else { crate::mechanics::scene::schema() };
         terminal.print_bytes(text.as_bytes())?;
         Ok(ExitStatus::Done)
@@ -47,7 +47,7 @@ pub(crate) struct Style {
 }
 
 impl Style {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let json = self.theme.theme().to_json();
         terminal.print_bytes(json.as_bytes())?;
         Ok(ExitStatus::Done)
@@ -64,7 +64,7 @@ pub(crate) struct Completions {
 }
 
 impl Completions {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let mut bytes = Vec::new();
         clap_complete::generate(self.shell, &mut CommandLine::command(), "drystone", &mut bytes);
         terminal.print_bytes(&bytes)?;
@@ -83,7 +83,7 @@ pub(crate) struct Manual {
 }
 
 impl Manual {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let mut pages = Vec::new();
         let mut command = CommandLine::command();
         command.build();

@@ -13,7 +13,7 @@ use output::{Rendered, paths, summary, without_faults};
 
 use crate::entry::cli::destination::{self, Destination};
 use crate::entry::cli::draw::DrawArgs;
-use crate::entry::cli::error::{CliError, all_or_errors};
+use crate::entry::cli::error::{CliError, Ended, all_or_errors};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::missing_glyphs;
 use crate::entry::cli::picture::Format;
@@ -74,7 +74,7 @@ pub(crate) struct Render {
 }
 
 impl Render {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         if self.force {
             terminal.note("--force does nothing: render always replaces its pictures, and never a file that it reads");
         }
@@ -105,14 +105,12 @@ impl Render {
     }
 
     /// Draws all figures once: checks the options, reads the scenes, draws in parallel, and writes the files.
-    fn once(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    fn once(&self, terminal: &Terminal) -> Ended {
         let destination = Destination::from_path(self.output.as_deref().unwrap_or(Path::new("-")));
         let format = destination.format(self.draw.picture.requested_format())?;
         self.draw.check(format)?;
         let scenes = source::files(&self.scenes)?;
-        for file in source::foreign_files(&self.scenes)? {
-            terminal.note(&format!("{}: left out, because it has no key \"drystone\"", source::name(&file)));
-        }
+        source::note_foreign_files(&self.scenes, terminal)?;
         self.check_count(&scenes, &destination, format, terminal)?;
         self.check_parts(&destination)?;
         let fonts = self.draw.picture.fonts()?;

@@ -10,7 +10,7 @@ use base64::engine::general_purpose::STANDARD;
 use clap::Args;
 
 use super::destination;
-use super::error::CliError;
+use super::error::{CliError, Ended};
 use super::exit_status::ExitStatus;
 use super::page::Page;
 use super::progress::Progress;
@@ -70,7 +70,7 @@ pub(crate) struct Snapshot {
 }
 
 impl Snapshot {
-    pub(crate) fn run(&self, terminal: &Terminal) -> Result<ExitStatus, Vec<CliError>> {
+    pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         let asks = matches!(self.review, Some(None));
         let acceptance = if self.accept_new {
             Acceptance::AcceptNew
@@ -262,7 +262,7 @@ const MAX_CHUNK_BYTES: usize = 4096;
 
 /// Asks for each snapshot that differs whether to accept it: `y` accepts it, `n` and `s` keep the reference, and `q`
 /// ends the review. Returns an error if an accepted snapshot could not be written.
-fn ask(terminal: &Terminal, report: &mut CheckOutcome) -> Result<ExitStatus, Vec<CliError>> {
+fn ask(terminal: &Terminal, report: &mut CheckOutcome) -> Ended {
     let pictures = pictures(terminal);
     let total = report.failing().count();
     let mut number = 0;

@@ -11,6 +11,7 @@ use std::time::Duration;
 
 use crate::clock::Instant;
 use crate::entry::cli::error::CliError;
+use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::AnalysisArgs;
 use crate::entry::value::FrameChoice;
 use crate::mechanics::scene::{Scene, SceneError, isolate};
@@ -115,9 +116,12 @@ pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
     Ok(sorted(paths)?.0)
 }
 
-/// Returns the `.json` files in the folders among `paths` that are no scenes, because they have no key `drystone`.
-pub(crate) fn foreign_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
-    Ok(sorted(paths)?.1)
+/// Names the `.json` files in the folders among `paths` that are no scenes, because they have no key `drystone`.
+pub(crate) fn note_foreign_files(paths: &[PathBuf], terminal: &Terminal) -> Result<(), CliError> {
+    for file in sorted(paths)?.1 {
+        terminal.note(&format!("{}: left out, because it has no key \"drystone\"", name(&file)));
+    }
+    Ok(())
 }
 
 /// Replaces each pattern, a path with `*` in its last part that no file has as its name, by the files that match it,

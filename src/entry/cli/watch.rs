@@ -8,8 +8,7 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, SystemTime};
 
-use crate::entry::cli::error::CliError;
-use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::error::Ended;
 use crate::entry::cli::terminal::Terminal;
 
 /// The time between two comparisons.
@@ -23,11 +22,7 @@ type FileStamp = Option<(SystemTime, u64)>;
 /// `files` lists them.
 ///
 /// Errors of a run are printed. The command still runs again when a file changes.
-pub(crate) fn repeat(
-    files: impl Fn() -> Vec<PathBuf>,
-    terminal: &Terminal,
-    mut run: impl FnMut() -> Result<ExitStatus, Vec<CliError>>,
-) -> Result<ExitStatus, Vec<CliError>> {
+pub(crate) fn repeat(files: impl Fn() -> Vec<PathBuf>, terminal: &Terminal, mut run: impl FnMut() -> Ended) -> Ended {
     loop {
         let before = stamps(files());
         if let Err(complaints) = run() {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::Render;
 use crate::entry::cli::destination::{self, Destination};
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::picture::Format;
 use crate::entry::cli::source::{self, isolated, name, stem};
@@ -160,7 +160,7 @@ impl Render {
         format: Format,
         fonts: &Fonts,
         terminal: &Terminal,
-    ) -> Result<ExitStatus, Vec<CliError>> {
+    ) -> Ended {
         let options = self.draw.options()?;
         let targets: Vec<&Path> = scenes.iter().map(PathBuf::as_path).collect();
         let paths = paths(destination, &targets, format)?;

@@ -18,7 +18,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::Render;
-use crate::entry::cli::error::CliError;
+use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::picture::Format;
 use crate::entry::cli::source;
@@ -70,12 +70,7 @@ struct State {
 }
 
 /// Serves the page on `port` until the program is stopped. `scenes` are the files at the start.
-pub(super) fn serve(
-    render: &Render,
-    port: Option<u16>,
-    scenes: Vec<PathBuf>,
-    terminal: &Terminal,
-) -> Result<ExitStatus, Vec<CliError>> {
+pub(super) fn serve(render: &Render, port: Option<u16>, scenes: Vec<PathBuf>, terminal: &Terminal) -> Ended {
     let bound = TcpListener::bind((Ipv4Addr::LOCALHOST, port.unwrap_or(PORT)));
     let bound = bound.or_else(|why| port.map_or_else(|| TcpListener::bind((Ipv4Addr::LOCALHOST, 0)), |_| Err(why)));
     let opened = bound.and_then(|listener| Ok((listener.local_addr()?, listener)));
@@ -97,7 +92,7 @@ pub(super) fn serve(
 
 impl Preview<'_> {
     /// Draws the output again if there is one, and tells the pages that files were saved.
-    fn saved(&self) -> Result<ExitStatus, Vec<CliError>> {
+    fn saved(&self) -> Ended {
         let render = self.render.started();
         let level = &render.draw.figure.level;
         let read = |scene: &PathBuf| source::read(std::slice::from_ref(scene), render.frame, level);
