@@ -179,7 +179,7 @@ pub(super) fn reach(typed: &str) -> Result<Reach, String> {
     Ok(Reach { kind, value: between(value, [0.0, if kind == Tilt { 80.0 } else { 1e6 }], error)? })
 }
 
-pub(super) fn seconds(typed: &str) -> Result<TimeLimit, String> {
+pub(crate) fn seconds(typed: &str) -> Result<TimeLimit, String> {
     let seconds = between(typed, [0.0, 1e6], || "give a time in seconds, from 0 to 1000000".into());
     seconds.map(|seconds| TimeLimit { given: Duration::from_secs_f64(seconds), began: None })
 }

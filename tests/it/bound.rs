@@ -87,6 +87,7 @@ fn files_of_more_than_64_mb_are_refused_unread() {
         ("big.json", "check in"),
         ("big.json", "batch big.json >&2"),
         ("big.json", "plan big.json"),
+        ("big.json", "verify big.json"),
         ("big.svg", "import big.svg"),
         ("big.dxf", "import big.dxf"),
         ("big.json", "render good.json -o good.svg --style big.json"),
@@ -332,6 +333,98 @@ fn a_time_limit_leaves_a_large_wall_undecided() {
     let free = outcome(&["check", "--no-timing", "wall.json"]);
     assert_eq!(free.0, Some(0), "{}", free.1);
     assert_eq!(outcome(&["check", "--no-timing", "--time-limit", "1000", "wall.json"]), free);
+}
+
+/// Each load case of 100 separate blocks is decided in closed form. After the deadline, the other cases are not analysed.
+#[test]
+fn a_time_limit_ends_many_load_cases_and_the_positions_of_a_vehicle() {
+    let limited = |name: &str, scene: &serde_json::Value| {
+        let started = Instant::now();
+        let ran = run(name, &scene.to_string(), &format!("check -q --time-limit 0.2 {name}"));
+        assert!(ran.code.is_some_and(|code| code == 3 || code == 0), "{name}: {:?} {}", ran.code, ran.messages);
+        let most = if cfg!(debug_assertions) { 20.0 } else { 0.7 };
+        assert!(started.elapsed().as_secs_f64() < most, "{name}: {:?}", started.elapsed());
+    };
+    let blocks: Vec<_> =
+        (0..100).map(|i| json!({ "id": format!("b{i}"), "polygon": square(2.0 * i as f64) })).collect();
+    let cases: Vec<_> = (0..9000).map(|i| json!({ "id": format!("c{i}"), "weights": 1.0 + 1e-3 * i as f64 })).collect();
+    let ground = json!([{ "polygon": [[0, 0], [300, 0], [300, -1], [0, -1]] }]);
+    limited("cases.json", &json!({ "drystone": 1, "ground": ground, "blocks": blocks, "cases": cases }));
+    let mut scene: serde_json::Value = serde_json::from_str(&wall(12, 12)).expect("JSON");
+    scene["loads"] = json!([]);
+    let axles: Vec<_> = (0..30).map(|i| json!({ "weight": 9, "offset": 0.01 * f64::from(i) })).collect();
+    scene["vehicle"] = json!({ "axles": axles });
+    limited("vehicle.json", &scene);
+}
+
+/// The work that the check of a certificate needs has a limit: numbers of all sizes in one step, many changed frames of
+/// many bodies, long outlines that lie on each other, and many contacts at a long outline.
+#[test]
+fn certificates_of_strangers() {
+    let body = |ground: bool, outline: serde_json::Value| json!({ "id": "a", "ground": ground, "outline": outline, "weight": 1 });
+    let triangle = || json!([[0, 0], [1, 0], [1, 1]]);
+    let frame = |verdict: &str, placed: Vec<usize>, contacts: serde_json::Value, more: [serde_json::Value; 2]| {
+        json!({ "frame": 1, "verdict": verdict, "gravity": [0, -1], "placed": placed, "contacts": contacts,
+            "forces": more[0], "motion": more[1] })
+    };
+    let file = |listed: bool, bodies: Vec<_>, frames: Vec<serde_json::Value>, limits: Vec<_>| {
+        json!({ "drystone_certificate": 1, "scene_sha256": "", "distance": 0.1, "corners_carry": false, "shortest": 0,
+            "listed": listed, "bodies": bodies, "frames": frames, "limits": limits })
+        .to_string()
+    };
+    // Numbers from 1e-300 to 1e300 with all digits.
+    let number = |k: usize| libm::sin(k as f64) * libm::exp10(300.0 * libm::cos((k * k) as f64));
+    let pairs: Vec<_> = (0..70).map(|k| [1 + k % 30, 1 + (k % 30 + 1 + k * k % 29) % 30]).collect();
+    let contact = |k: usize, bodies: [usize; 2]| {
+        json!({ "bodies": bodies, "points": [[number(5 * k), number(5 * k + 1)], [number(5 * k + 2), number(5 * k + 3)]],
+            "friction": 1 })
+    };
+    let contacts: Vec<_> = pairs.iter().enumerate().map(|(k, bodies)| contact(k, *bodies)).collect();
+    let step = [json!((1..=30).collect::<Vec<_>>()), json!((0..200).collect::<Vec<_>>())];
+    let forces = json!({ "contacts": vec![[1, 1, 0]; 70], "grips": [], "order": [step] });
+    let bodies: Vec<_> = (0..31).map(|k| body(k == 0, triangle())).collect();
+    let steps = frame("stable", (1..31).collect(), json!(contacts), [forces, json!(null)]);
+    let limits = vec![json!({ "frame": 1, "of": "", "change": {}, "verdict": "stable" }); 9_000];
+    let many = (0..5_000).map(|k| body(k == 0, triangle())).collect();
+    let empty = frame("undecided", Vec::new(), json!([]), [json!(null), json!(null)]);
+    let long: Vec<_> = (0..15_000).map(|x| [x, 0]).chain([[0, 1]]).collect();
+    let two = || vec![body(true, json!(long)), body(false, json!(long))];
+    let near = vec![json!({ "bodies": [1, 0], "points": [[0, 0], [1, 0]], "friction": 0 }); 6_000];
+    let files = [
+        ("steps.json", file(true, bodies, vec![steps; 4], Vec::new())),
+        ("limits.json", file(true, many, vec![empty], limits)),
+        (
+            "long.json",
+            file(false, two(), vec![frame("unstable", vec![1], json!([]), [json!(null), json!([])])], Vec::new()),
+        ),
+        (
+            "near.json",
+            file(false, two(), vec![frame("stable", vec![1], json!(near), [json!(null), json!(null)])], Vec::new()),
+        ),
+    ];
+    for (name, text) in files {
+        let ran = run(name, &text, &format!("verify {name} >&2"));
+        assert_eq!(ran.code, Some(3), "{name}: {}", ran.messages.chars().take(400).collect::<String>());
+        let is_given_up = ran.messages.contains("steps of arithmetic");
+        assert_eq!(is_given_up, name == "steps.json", "{name}");
+        let late = run(name, &text, &format!("verify --time-limit 0 {name} >&2"));
+        assert!(late.messages.contains("the time limit"), "{name}: {}", late.messages);
+    }
+}
+
+/// A certificate ends with its time limit, and says so; one of very many blocks is refused.
+#[test]
+fn certificates_are_written_in_time() {
+    let args = "check --time-limit 0 --certificate proof.json wall.json >&2";
+    let ran = run("wall.json", &wall(3, 3), args);
+    assert!(matches!(ran.code, Some(0 | 3)), "{}", ran.messages);
+    let mut scene: serde_json::Value = serde_json::from_str(&wall(10, 11)).expect("JSON");
+    let names: Vec<_> = scene["blocks"].as_array().into_iter().flatten().map(|block| block["id"].clone()).collect();
+    let mut steps = vec![json!({ "place": names })];
+    steps.extend(vec![json!({}); 1000]);
+    scene["steps"] = json!(steps);
+    let words = "110110 blocks in all frames are too many for a certificate, at most 100000 are written";
+    refused("wall.json", &scene.to_string(), "check --verdict-only --certificate proof.json wall.json", words);
 }
 
 /// A closed form decides two separate blocks on a floor even with a time limit of 0. If the blocks overlap, the

@@ -173,7 +173,7 @@ impl Check {
                 let why = "--certificate writes no load cases; write each case as a scene of its own".to_owned();
                 return Err(CliError::CommandLine(why));
             }
-            verify::write(&mut analysis, &source.path, output, detail.margins)?;
+            verify::write(&mut analysis, &source.path, output, detail.margins, options.deadline)?;
         }
         let timing = if self.no_timing { Timing::LeftOut } else { Timing::Included };
         let ending = ExitStatus::from_analysis(&analysis);

@@ -264,7 +264,7 @@ pub(crate) fn in_time<R: Send + 'static>(
     }
     result
         .recv_timeout(left)
-        .map_err(|_| format!("the time limit of {:?} was reached while the scene was checked", limit.given))
+        .map_err(|_| format!("the time limit of {:?} was reached while the file was checked", limit.given))
 }
 
 /// Runs `work` for one scene file. A panic in `work` becomes an error of this file.

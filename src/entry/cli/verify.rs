@@ -1,11 +1,11 @@
 //! `drystone verify`: checks a certificate in exact rational arithmetic. Also writes the certificate of `check
 //! --certificate`.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use crate::clock::Instant;
 use crate::entry::cli::destination;
 use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
@@ -13,8 +13,10 @@ use crate::entry::cli::page::Page;
 use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::AnalysisArgs;
-use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::entry::value::{TimeLimit, seconds};
+use crate::mechanics::analysis::{Analysis, Options, Verdict};
 use crate::mechanics::certificate::{Certificate, Checked};
+use crate::mechanics::solve::DeadlineGuard;
 use crate::pictures::output::file::Existing;
 
 /// Check a certificate of check --certificate in exact arithmetic
@@ -22,7 +24,7 @@ use crate::pictures::output::file::Existing;
 /// Prints for each frame whether its forces or its motion prove the verdict exactly. With the scene, the certificate must
 /// also be about this scene. The exit code is 0 if every verdict is proved and stable, 1 if every verdict is proved and
 /// one is unstable, 2 if the certificate is wrong, and 3 if a verdict is not proved exactly.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct Verify {
     /// The certificate
     #[arg(value_name = "FILE")]
@@ -30,38 +32,51 @@ pub(crate) struct Verify {
     /// The scene that the certificate is about
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
+    /// Stop after this many seconds; verdicts that are not checked by then are not proved
+    #[arg(long, value_name = "SECONDS", env = "DRYSTONE_TIME_LIMIT", hide_env_values = true,
+        value_parser = |typed: &str| seconds(typed).map(TimeLimit::started))]
+    time_limit: Option<TimeLimit>,
 }
 
 impl Verify {
     pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
-        self.checked(terminal).map_err(|c| vec![c])
+        let (own, level) = (self.clone(), AnalysisArgs { time_limit: self.time_limit, ..AnalysisArgs::default() });
+        let checked = source::in_time(&level, move || own.checked());
+        let late = |why| CliError::not_read(source::name(&self.certificate), why);
+        let (page, status) = checked.map_err(late).flatten().map_err(|c| vec![c])?;
+        terminal.print(&page).map_err(|c| vec![c])?;
+        Ok(status)
     }
 
-    fn checked(&self, terminal: &Terminal) -> Result<ExitStatus, CliError> {
+    fn checked(&self) -> Result<(Page, ExitStatus), CliError> {
         let shown = self.certificate.display();
-        let bytes = bytes_of(&self.certificate)?;
+        let bytes = source::bytes(&self.certificate)?;
         let certificate = Certificate::from_json(&bytes).map_err(|why| {
             CliError::CommandLine(format!("{shown} is not a certificate of drystone check --certificate: {why}"))
         })?;
         if let Some(scene) = &self.scene {
             let own = source::read(std::slice::from_ref(scene), None, &AnalysisArgs::default());
             let own = own.map_err(|mut errors| errors.swap_remove(0))?;
-            let mut analysis = Analysis::new(own[0].scene.clone());
-            let differs = certificate.differs_from(&Certificate::new(&mut analysis, hash(&bytes_of(scene)?), false));
+            let mut analysis = Analysis::with(own[0].scene.clone(), &Options::default().verdict_only(true));
+            // The proofs are not compared, so no time is spent on them.
+            let _none = DeadlineGuard::new(Some(Instant::now()));
+            let own = Certificate::new(&mut analysis, hash(&source::bytes(scene)?), false);
+            let differs = certificate.differs_from(&own);
             if let Some(what) = differs {
                 let scene = scene.display();
                 return Err(CliError::CommandLine(format!("{shown} is not about {scene}: {what}")));
             }
         }
+        let _until = DeadlineGuard::new(self.time_limit.and_then(TimeLimit::end));
         let checked = certificate
             .check()
             .map_err(|errors| CliError::CommandLine(format!("{shown} proves nothing: {}", errors.join("; "))))?;
-        terminal.print(&page(&certificate, &checked))?;
-        Ok(match &checked.frames[..] {
+        let status = match &checked.frames[..] {
             _ if !checked.is_exact() => ExitStatus::Undecided,
             frames if frames.iter().any(|frame| frame.verdict == Verdict::Unstable.word()) => ExitStatus::Unstable,
             _ => ExitStatus::Done,
-        })
+        };
+        Ok((page(&certificate, &checked), status))
     }
 }
 
@@ -101,16 +116,30 @@ fn page(certificate: &Certificate, checked: &Checked) -> Page {
     page
 }
 
+/// The largest number of blocks in all frames of a certificate. Each takes about 500 bytes, and a larger file is not read.
+const MAX_BLOCKS: usize = 100_000;
+
 /// Writes the certificate of an analysis to a file, `with_margins` if its margins were requested.
-pub(crate) fn write(analysis: &mut Analysis, scene: &Path, output: &Path, with_margins: bool) -> Result<(), CliError> {
+/// A proof that is not found by the deadline is left out.
+pub(crate) fn write(
+    analysis: &mut Analysis,
+    scene: &Path,
+    output: &Path,
+    with_margins: bool,
+    deadline: Option<Instant>,
+) -> Result<(), CliError> {
     destination::refuse_overwrites(&[output.to_owned()], &[scene])?;
-    let hash = if scene == Path::new("-") { String::new() } else { hash(&bytes_of(scene)?) };
+    let hash = if scene == Path::new("-") { String::new() } else { hash(&source::bytes(scene)?) };
+    let count: usize = analysis.scene.frames().iter().map(|frame| frame.placed.len()).sum();
+    if count > MAX_BLOCKS {
+        return Err(CliError::CommandLine(format!(
+            "{count} blocks in all frames are too many for a certificate, at most {MAX_BLOCKS} are written; choose one \
+             frame with --frame"
+        )));
+    }
+    let _until = DeadlineGuard::new(deadline);
     let certificate = Certificate::new(analysis, hash, with_margins);
     destination::write(&[(output.to_owned(), certificate.to_json().into_bytes())], Existing::Replace)
-}
-
-fn bytes_of(path: &Path) -> Result<Vec<u8>, CliError> {
-    fs::read(path).map_err(|error| CliError::NotRead { what: path.display().to_string(), why: error.to_string() })
 }
 
 /// The SHA-256 of bytes in hexadecimal digits.

@@ -9,8 +9,9 @@ use std::collections::BTreeSet;
 
 use super::fraction::{Number, Rational, Vector, Wrench, eliminate, solve};
 use super::links::{Link, centroid, grip_wrenches, length_of_normal, sides};
-use super::number::Interval;
-use super::{Certificate, ContactForm, FrameForm, LimitForm, Pair, Step};
+use super::number::{Interval, WORK, allow, is_spent, spend};
+use super::{BodyForm, Certificate, ContactForm, FrameForm, LimitForm, Pair, Step};
+use crate::mechanics::solve::is_late;
 
 /// The result of checking a certificate.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,7 +62,8 @@ impl Certificate {
     /// Checks the certificate in exact arithmetic. Returns the errors in its form if it cannot be read as a proof, such
     /// as an index without a body.
     pub fn check(&self) -> Result<Checked, Vec<String>> {
-        let errors = self.form_errors();
+        allow(WORK[0] + WORK[1] * self.to_json().len() as u64);
+        let errors = self.form_errors(&self.bodies, &self.frames);
         if !errors.is_empty() {
             return Err(errors);
         }
@@ -79,7 +81,9 @@ impl Certificate {
             verdict: limit.verdict.clone(),
             faults: self.limit_faults(limit),
         });
-        Ok(Checked { frames, limits: limits.collect(), farthest })
+        let limits = limits.collect();
+        allow(u64::MAX);
+        Ok(Checked { frames, limits, farthest })
     }
 
     /// Returns by which angle, in degrees, a change rotates gravity. Sines are no fractions, so this is rounded.
@@ -91,6 +95,10 @@ impl Certificate {
 
     /// Checks the places of the contacts of a changed frame, and its proof.
     pub(super) fn limit_faults(&self, limit: &LimitForm) -> Vec<String> {
+        spend(self.frames.len());
+        if let Some(why) = given_up() {
+            return vec![why];
+        }
         let Some(frame) = self.frames.iter().find(|frame| frame.frame == limit.frame) else {
             return vec![format!("there is no frame {}", limit.frame)];
         };
@@ -101,10 +109,7 @@ impl Certificate {
             still: limit.still.clone(),
             ..limit.change.of(frame)
         };
-        // Copied without its other frames and limits: a certificate may have thousands of both.
-        let (scene_sha256, bodies) = (String::new(), self.bodies.clone());
-        let alone = Certificate { scene_sha256, bodies, frames: vec![changed.clone()], limits: Vec::new(), ..*self };
-        let mut faults = alone.form_errors();
+        let mut faults = self.form_errors(&[], std::slice::from_ref(&changed));
         if limit.change.grip_limits.as_ref().is_some_and(|limits| limits.len() != frame.grips.len()) {
             faults.push("the limits are not those of the grips".to_owned());
         }
@@ -117,7 +122,9 @@ impl Certificate {
 
     /// Checks the forces or the motion of a frame, as its verdict needs.
     pub(super) fn proof_faults(&self, frame: &FrameForm) -> Vec<String> {
-        match (frame.verdict.as_str(), &frame.forces, &frame.motion) {
+        spend(100 * (self.bodies.len() + frame.contacts.len()));
+        let faults = match (frame.verdict.as_str(), &frame.forces, &frame.motion) {
+            _ if is_spent() => Vec::new(),
             ("stable", Some(_), _) if self.force_faults::<Interval>(frame).is_empty() => Vec::new(),
             ("stable", Some(_), _) => self.force_faults::<Rational>(frame),
             ("unstable", _, Some(_)) if self.motion_faults::<Interval>(frame).is_empty() => Vec::new(),
@@ -125,12 +132,13 @@ impl Certificate {
             ("stable", None, _) => vec!["the certificate contains no forces".to_owned()],
             ("unstable", _, None) => vec!["the certificate contains no motion".to_owned()],
             _ => vec!["the certificate states no verdict".to_owned()],
-        }
+        };
+        given_up().map_or(faults, |why| vec![why])
     }
 
-    /// Returns what makes the certificate unreadable as a proof: indices without an entry, lists of a wrong length, and
+    /// Returns what makes bodies and frames of the certificate unreadable as a proof: indices without an entry, lists of a wrong length, and
     /// numbers of a wrong sign.
-    fn form_errors(&self) -> Vec<String> {
+    fn form_errors(&self, bodies: &[BodyForm], frames: &[FrameForm]) -> Vec<String> {
         let mut errors = Vec::new();
         let mut need = |fine: bool, text: &dyn Fn() -> String| {
             if !fine {
@@ -139,7 +147,7 @@ impl Certificate {
         };
         need(self.drystone_certificate == 1, &|| format!("version {} is not 1", self.drystone_certificate));
         need(self.distance >= 0.0 && self.shortest >= 0.0, &|| "a distance is negative".to_owned());
-        for body in &self.bodies {
+        for body in bodies {
             let mut rings = std::iter::once(&body.outline).chain(&body.holes);
             need(body.circle.is_some() || rings.all(|ring| ring.len() >= 3), &|| {
                 format!("an outline of {} has fewer than 3 corners", body.id)
@@ -158,10 +166,10 @@ impl Certificate {
             need(body.weight >= 0.0, &|| format!("the weight of {} is negative", body.id));
         }
         let is_block = |index: usize| self.bodies.get(index).is_some_and(|body| !body.ground);
-        for frame in &self.frames {
+        for frame in frames {
             let n = frame.frame;
-            let is_placed = |index: usize| is_block(index) && frame.placed.contains(&index);
-            let different: BTreeSet<&usize> = frame.placed.iter().collect();
+            let different: BTreeSet<usize> = frame.placed.iter().copied().collect();
+            let is_placed = |index: usize| is_block(index) && different.contains(&index);
             let fine = different.len() == frame.placed.len() && frame.placed.iter().all(|index| is_block(*index));
             need(fine, &|| format!("frame {n}: a placed body is no block, or is placed twice"));
             need((0.0..=1.0).contains(&frame.kernel), &|| format!("frame {n}: the kernel is not between 0 and 1"));
@@ -226,12 +234,14 @@ impl Certificate {
         let mut faults = Vec::new();
         let links = self.links(frame);
         let amounts = forces.contacts.iter().chain(&forces.grips).flatten().map(|v| N::exact(*v)).collect();
-        let loads = (0..self.bodies.len()).map(|body| self.load(body, frame)).collect();
+        let mut loads = vec![Wrench::zero(); self.bodies.len()];
+        frame.placed.iter().for_each(|body| loads[*body] = self.load(*body, frame));
         let amounts: Vec<N> = self.corrected(frame, &links, &forces.order, amounts, loads, &mut faults);
         // By how much the errors of the bodies change the conditions of each contact and grip.
         let mut spread = vec![[N::zero(), N::zero(), N::zero(), N::zero()]; links.len()];
         let loose = if frame.errors.is_some() && faults.is_empty() { &frame.placed[..] } else { &[] };
-        for body in loose {
+        for body in loose.iter().take_while(|_| !is_spent()) {
+            spend(forces.reactions.len());
             let size = N::exact(frame.errors.as_ref().map_or(0.0, |errors| errors.size));
             let mut own = vec![N::zero(); amounts.len()];
             let reactions = forces.reactions.iter().filter(|(other, _)| other == body);
@@ -288,6 +298,7 @@ impl Certificate {
         loads: Vec<Wrench<N>>,
         faults: &mut Vec<String>,
     ) -> Vec<N> {
+        spend(20 * (amounts.len() + loads.len()));
         // The residual of each body: its loads and the forces of its contacts and grips.
         let mut residual = loads;
         for (component, amount) in amounts.iter().enumerate().filter(|(_, amount)| !amount.is_zero()) {
@@ -300,7 +311,8 @@ impl Certificate {
         }
         // Carry the residuals on to the next bodies, by changes of the forces.
         let mut done = vec![false; self.bodies.len()];
-        for (bodies, components) in order {
+        for (bodies, components) in order.iter().take_while(|_| !is_spent()) {
+            spend(bodies.len() * components.len());
             let leads_on = components.iter().all(|component| {
                 let ends = links[component / 3].bodies();
                 ends.iter().any(|body| bodies.contains(body)) && ends.iter().all(|body| !done[*body])
@@ -359,7 +371,7 @@ impl Certificate {
             motions[motion.body] = Wrench { force: at_origin, moment: spin };
         }
         let links = self.links(frame);
-        for (bodies, components) in &frame.still {
+        for (bodies, components) in frame.still.iter().take_while(|_| !is_spent()) {
             // Find the changes of the motions after which no component has power.
             let rows = components.iter().map(|component| {
                 let own = |body: &usize| links[component / 3].on_body(component % 3, *body);
@@ -418,6 +430,21 @@ impl Certificate {
         format!("{on} on {from}")
     }
 }
+
+/// Returns why proofs are given up, if they are.
+fn given_up() -> Option<String> {
+    let [own, each] = WORK;
+    is_spent().then(|| match is_late() {
+        true => LATE.to_owned(),
+        false => format!(
+            "the check needs more than the {own} steps of arithmetic, and {each} for each byte, that a certificate may \
+             take; write one for each frame with check --frame"
+        ),
+    })
+}
+
+/// What a proof misses after the deadline.
+pub(super) const LATE: &str = "the time limit was reached";
 
 /// Returns what must be at least 0 at a contact, N₁, N₂, and μ (N₁ + N₂) ∓ T; or the components of a grip.
 fn conditions<N: Number>(frame: &FrameForm, link: usize, amounts: &[N]) -> [N; 4] {

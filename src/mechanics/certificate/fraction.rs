@@ -3,6 +3,7 @@
 pub(super) use super::number::{Number, Rational};
 
 use super::Pair;
+use super::number::{is_spent, spend};
 
 /// A vector or a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,14 +128,21 @@ pub(super) fn eliminate<N: Number>(mut rows: Vec<Vec<N>>, unknowns: usize) -> Op
     if !N::DECIDES {
         return None;
     }
+    spend(20 * rows.len() * unknowns);
     let mut pivots = Vec::new();
     for j in 0..unknowns {
+        if is_spent() {
+            return None;
+        }
         let at = pivots.len();
         let Some(pivot) = (at..rows.len()).find(|row| !rows[*row][j].is_zero()) else { continue };
         rows.swap(at, pivot);
         let own: Option<Vec<N>> = rows[at].iter().map(|v| Some(v.over(&rows[at][j])?.reduced())).collect();
         let own = own?;
         for other in rows.iter_mut().filter(|row| !row[j].is_zero()) {
+            if is_spent() {
+                return None;
+            }
             let factor = other[j].clone();
             for (value, own) in other.iter_mut().zip(&own).filter(|(_, own)| !own.is_zero()) {
                 *value = value.minus(&factor.times(own)).reduced();

@@ -6,6 +6,7 @@ use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::analysis::{Cases, End, FrameAnalysis, Interval, LoadCapacity, Verdict, extremes, with_grip};
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::Scene;
+use crate::mechanics::solve::is_late;
 use crate::mechanics::statics::assembly::{Assembly, load_about};
 
 /// How far from an end the two sides are proved, relative to its size: the first distance at which both the numbers of
@@ -185,6 +186,9 @@ impl Limits<'_> {
     ) -> Option<LimitForm> {
         let given_first: &[bool] = if verdict == Verdict::Stable { &[false] } else { &[true, false] };
         let mut last = None;
+        if is_late() {
+            return last;
+        }
         for (given_only, share) in given_first.iter().flat_map(|given| DISTANCES.map(|share| (*given, share))) {
             let (change, assembly) = change(share);
             let bare = FrameForm { verdict: verdict.word().to_owned(), ..change.of(self.bare) };
@@ -193,7 +197,7 @@ impl Limits<'_> {
                 _ => self.certificate.falling(&bare, &assembly, mechanism, given_only),
             };
             last = Some(LimitForm::new(of, change, proved));
-            if faults.is_empty() {
+            if faults.is_empty() || is_late() {
                 break;
             }
         }

@@ -1,13 +1,14 @@
 //! The loads of a body, and what each component of a contact or a grip does to the bodies that it joins, as exact wrenches.
 
 use super::fraction::{Number, Vector, Wrench, square_length};
+use super::number::{is_spent, spend};
 use super::{BodyForm, Certificate, ContactForm, FrameForm, GripForm, LoadForm, Pair};
 
 impl Certificate {
     /// Returns the loads of a body in a frame: its weight at its centroid, its listed loads, and the further load.
     pub(super) fn load<N: Number>(&self, index: usize, frame: &FrameForm) -> Wrench<N> {
         let body = &self.bodies[index];
-        if body.ground {
+        if body.ground || is_spent() {
             return Wrench::zero();
         }
         // `form_errors` refuses bodies without area; an interval may be too wide to tell.
@@ -25,6 +26,7 @@ impl Certificate {
             add(load, 1.0);
         }
         let errors = frame.errors.iter().flat_map(|errors| &errors.pattern);
+        spend(frame.errors.as_ref().map_or(0, |errors| errors.pattern.len()));
         for (_, sign) in errors.filter(|(body, _)| *body == index) {
             let moment = frame.moment(index, body).unwrap_or_else(|| N::exact(f64::NAN));
             sum.moment = sum.moment.plus(&moment.times(&N::exact(*sign)));

@@ -10,13 +10,13 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::check::LATE;
 use super::fall::{NEGLIGIBLE, motion_of_all, opening_motion, with_motion};
 use super::limits::Limits;
 use super::stand::{inner_forces, order, slack_forces};
 use super::{
     BodyForm, Certificate, CircleForm, ContactForm, ForcesForm, FrameForm, GripForm, LimitForm, LoadForm, Pair,
 };
-use crate::clock::Instant;
 use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::{Analysis, FrameAnalysis, Options, Verdict, mechanism_of};
 use crate::mechanics::proof::Motion;
@@ -40,8 +40,9 @@ impl Certificate {
     pub fn new(analysis: &mut Analysis, scene_sha256: String, with_margins: bool) -> Certificate {
         let first = analysis.of_each(|number| number);
         let mut proved = BTreeMap::new();
-        let mut certificate = Certificate::prove_each(analysis, None, |form, limits| {
+        let mut certificate = Certificate::prove_each(analysis, |form, limits| {
             proved.insert(form.frame, (form.clone(), limits.all(with_margins)));
+            !is_late()
         });
         certificate.scene_sha256 = scene_sha256;
         for (number, first) in first.into_iter().enumerate() {
@@ -55,17 +56,13 @@ impl Certificate {
     /// Notes in an analysis which verdicts exact arithmetic proves and what the others miss, as [`Certificate::new`] does,
     /// but keeps no proof, and ends at the deadline of the options.
     pub(crate) fn note_exact(analysis: &mut Analysis, options: &Options) {
-        Certificate::prove_each(analysis, options.deadline, |_, _| ());
+        let _until = DeadlineGuard::new(options.deadline);
+        Certificate::prove_each(analysis, |_, _| true);
     }
 
     /// Proves the verdict of each frame, one for all frames that share their results, and notes whether the proof is
-    /// exact. `keep` has the proved frame, and what its limits are proved from. Returns the certificate without frames.
-    fn prove_each(
-        analysis: &mut Analysis,
-        deadline: Option<Instant>,
-        mut keep: impl FnMut(&FrameForm, &Limits<'_>),
-    ) -> Certificate {
-        let _until = DeadlineGuard::new(deadline);
+    /// exact. `keep` has the proved frame, and what its limits are proved from; it returns whether it kept all. Returns the certificate without frames.
+    fn prove_each(analysis: &mut Analysis, mut keep: impl FnMut(&FrameForm, &Limits<'_>) -> bool) -> Certificate {
         let mut latest = analysis.scene.clone();
         let interfaces = Interfaces::new(&latest);
         let mut certificate = Certificate {
@@ -91,18 +88,21 @@ impl Certificate {
             let (proved, faults) = match found.verdict {
                 Verdict::Stable if !is_late() => certificate.standing(&bare, &assembly, Some(found)),
                 Verdict::Unstable if !is_late() => certificate.falling(&bare, &assembly, &found.mechanism, false),
-                Verdict::Stable | Verdict::Unstable => (bare.clone(), vec!["the time limit was reached".to_owned()]),
+                Verdict::Stable | Verdict::Unstable => (bare.clone(), vec![LATE.to_owned()]),
                 Verdict::Undecided => (bare.clone(), Vec::new()),
             };
             // The proofs of the limits look for their frame in the certificate, and copy it with all its frames.
             certificate.frames = vec![proved];
             let limits = Limits { scene, certificate: &certificate, bare: &bare, assembly: &assembly, found };
-            keep(&certificate.frames[0], &limits);
+            let is_whole = keep(&certificate.frames[0], &limits);
             if found.verdict != Verdict::Undecided && found.exact.is_none() {
                 let found = Arc::make_mut(found);
                 found.exact = Some(faults.is_empty());
                 let notice = |fault| format!("the verdict is not proved in exact arithmetic: {fault}");
                 found.notices.extend(faults.first().map(notice));
+                if !is_whole {
+                    found.notices.push(format!("the certificate may lack proofs of this frame: {LATE}"));
+                }
             }
         });
         Certificate { bodies: bodies(&analysis.scene), frames: Vec::new(), ..certificate }
@@ -156,7 +156,7 @@ impl Certificate {
             if best.as_ref().is_none_or(|(_, fewest)| faults.len() < fewest.len()) {
                 best = Some((form, faults));
             }
-            if is_exact {
+            if is_exact || is_late() {
                 break;
             }
         }

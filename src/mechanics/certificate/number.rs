@@ -1,7 +1,41 @@
 //! [`Number`]: what the checks compute with. Intervals decide most proofs, sooner than [`Rational`] numbers, which decide
 //! the others.
 
+use std::cell::Cell;
+
 pub(super) use dashu_ratio::Relaxed as Rational;
+
+use crate::mechanics::solve::is_late;
+
+/// The work that the check of a certificate may need, in products of two words of 64 bits, and that for each byte of it. A
+/// thousand million take about a second. Certificates of this program need up to 500 for each byte.
+pub(super) const WORK: [u64; 2] = [2_000_000_000, 1_500];
+
+thread_local! {
+    /// The work that is left for the check of a certificate on this thread.
+    static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
+}
+
+/// Allows this amount of work from now on.
+pub(super) fn allow(work: u64) {
+    LEFT.set(work);
+}
+
+/// Counts work.
+pub(super) fn spend(work: usize) {
+    LEFT.set(LEFT.get().saturating_sub(work as u64));
+}
+
+/// True if no work is left, or the deadline has passed. Loops then end, and the proof is given up.
+pub(super) fn is_spent() -> bool {
+    LEFT.get() == 0 || is_late()
+}
+
+/// Counts an operation on numbers with as many words together as these.
+fn operate(numbers: [&Rational; 2]) {
+    let words = numbers.map(|n| 1 + n.numerator().as_sign_words().1.len().max(n.denominator().as_words().len()));
+    spend(30 + words[0] * words[1]);
+}
 
 /// An exact number, or an interval that contains it. A test such as [`Number::is_positive`] is true only if every number
 /// of the interval passes it.
@@ -42,18 +76,22 @@ impl Number for Rational {
     }
 
     fn plus(&self, other: &Rational) -> Rational {
+        operate([self, other]);
         self + other
     }
 
     fn minus(&self, other: &Rational) -> Rational {
+        operate([self, other]);
         self - other
     }
 
     fn times(&self, other: &Rational) -> Rational {
+        operate([self, other]);
         self * other
     }
 
     fn over(&self, other: &Rational) -> Option<Rational> {
+        operate([self, other]);
         (*other != Rational::ZERO).then(|| self / other)
     }
 
@@ -78,6 +116,8 @@ impl Number for Rational {
     }
 
     fn reduced(&self) -> Rational {
+        // A common divisor takes about four times as long as a product.
+        (0..4).for_each(|_| operate([self, self]));
         self.clone().canonicalize().relax()
     }
 }
@@ -95,6 +135,7 @@ impl Interval {
 
     /// Returns an interval that contains the exact values of which these are the rounded ones.
     fn around<const N: usize>(results: [f64; N]) -> Interval {
+        spend(2);
         if !results.iter().all(|result| result.is_finite()) {
             return Interval::ALL;
         }

@@ -6,6 +6,7 @@ use super::fraction::{Number, Rational, Vector, square, square_length};
 use super::limits::{DISTANCES, Limits};
 use super::links::{length_of_normal, normal_of};
 use super::make::listed_forces;
+use super::number::{is_spent, spend};
 use super::stand::{links_of, order};
 use super::{BodyForm, Change, ContactForm, ErrorsForm, FrameForm, LimitForm, Sparse};
 use crate::mechanics::analysis::{Placement, Verdict};
@@ -13,7 +14,11 @@ use crate::mechanics::analysis::{Placement, Verdict};
 impl FrameForm {
     /// Returns the largest error of a body, metres. That of the ground is 0.
     fn error<N: Number>(&self, body: usize) -> N {
-        let Some(errors) = self.errors.as_ref().filter(|_| self.placed.contains(&body)) else { return N::zero() };
+        let Some(errors) = self.errors.as_ref().filter(|_| !is_spent()) else { return N::zero() };
+        spend(self.placed.len() + errors.scales.len());
+        if !self.placed.contains(&body) {
+            return N::zero();
+        }
         let own = errors.scales.iter().rev().find(|(other, _)| *other == body);
         own.map_or(N::exact(1.0), |(_, scale)| N::exact(*scale)).times(&N::exact(errors.size))
     }

@@ -1,9 +1,16 @@
 //! Checks in exact arithmetic that the contacts of a frame are those of its outlines: each lies where it says, and none is
 //! left out.
 
+use std::collections::BTreeMap;
+
 use super::fraction::{Number, Rational, Vector, square, square_length};
-use super::links::{ends, normal_of, sides};
-use super::{BodyForm, Certificate, CircleForm, ContactForm, FrameForm};
+use super::links::{ends, normal_of};
+use super::number::{is_spent, spend};
+use super::{BodyForm, Certificate, CircleForm, ContactForm, FrameForm, Pair};
+use crate::geometry::{Aabb, BoxIndex};
+
+/// An edge of a body, with its inside on the left, and the box around it.
+type Edge = (Aabb, [Vector; 2]);
 
 impl Certificate {
     /// Checks that the contact points of a frame lie at both outlines and that every pair of bodies that touch has its
@@ -14,10 +21,11 @@ impl Certificate {
         }
         let mut faults = Vec::new();
         let allowed = square(&Rational::exact(self.distance));
-        for contact in &frame.contacts {
+        for contact in frame.contacts.iter().take_while(|_| !is_spent()) {
+            let around = bounds(&contact.points).grown(2.0 * self.distance);
             let mut edges_at = Vec::new();
             for (body, sign) in contact.bodies.iter().zip([1, -1]) {
-                let edges = edges(&self.bodies[*body]);
+                let edges = edges(&self.bodies[*body], &around);
                 for at in &contact.points {
                     let at = Vector::new(*at);
                     let (away, is_near) = match self.bodies[*body].circle {
@@ -26,8 +34,11 @@ impl Certificate {
                             (away, is_near && contact.points.len() == 1)
                         }
                         None => {
-                            let nearest = edges.iter().map(|[a, b]| distance_squared(&at, a, b)).min();
-                            let Some(nearest) = nearest else { continue };
+                            let nearest =
+                                |edges: &[Edge]| edges.iter().map(|(_, [a, b])| distance_squared(&at, a, b)).min();
+                            let near = nearest(&edges).filter(|near| *near <= allowed);
+                            let all = || nearest(&super::places::edges(&self.bodies[*body], &EVERYWHERE));
+                            let Some(nearest) = near.or_else(all) else { continue };
                             (nearest.float().sqrt(), nearest <= allowed)
                         }
                     };
@@ -51,7 +62,7 @@ impl Certificate {
     /// True if the normal of a contact is that of the outlines: it makes an angle of less than 0.6° with the inner normal
     /// of an edge of the first body or with the outer normal of an edge of the second body at the contact. Where two
     /// corners meet, it separates them.
-    fn faces(&self, contact: &ContactForm, edges_at: &[(Vec<[Vector; 2]>, i32)]) -> bool {
+    fn faces(&self, contact: &ContactForm, edges_at: &[(Vec<Edge>, i32)]) -> bool {
         let normal = normal_of(contact);
         let allowed = square(&Rational::exact(self.distance));
         let middle = Vector::new(contact.points[0]);
@@ -66,7 +77,7 @@ impl Certificate {
         is_corner
             || faces_circle
             || edges_at.iter().any(|(edges, sign)| {
-                edges.iter().any(|[a, b]| {
+                edges.iter().any(|(_, [a, b])| {
                     let inner = b.minus(a).turned();
                     let along = normal.dot(&inner) * Rational::from(*sign);
                     let across = square(&normal.cross(&inner));
@@ -90,25 +101,41 @@ impl Certificate {
         let shortest = square(&Rational::exact(self.shortest + 2.0 * self.distance));
         let ground = (0..self.bodies.len()).filter(|index| self.bodies[*index].ground);
         let present: Vec<usize> = ground.chain(frame.placed.iter().copied()).collect();
-        for (k, one) in present.iter().enumerate() {
-            for other in &present[k + 1..] {
+        let boxes: Vec<Aabb> = self.bodies.iter().map(BodyForm::bounds).collect();
+        // Bodies whose boxes, grown by twice the distance, do not meet do not touch.
+        let reach = 2.0 * self.distance;
+        let index = BoxIndex::new(present.clone(), |body| boxes[*body]);
+        let mut joined = BTreeMap::<[usize; 2], Vec<[Vector; 2]>>::new();
+        for contact in &frame.contacts {
+            let [one, other] = contact.bodies;
+            joined.entry([one.min(other), one.max(other)]).or_default().push(ends(contact));
+        }
+        for one in &present {
+            let mut others: Vec<usize> = index.intersecting(boxes[*one].grown(reach)).copied().collect();
+            others.retain(|other| other > one);
+            others.sort_unstable();
+            for other in &others {
                 let bodies = [&self.bodies[*one], &self.bodies[*other]];
-                if bodies.iter().all(|body| body.ground) || !boxes_meet(bodies, self.distance) {
+                if bodies.iter().all(|body| body.ground) {
                     continue;
                 }
-                let contacts =
-                    frame.contacts.iter().filter(|c| c.bodies == [*one, *other] || c.bodies == [*other, *one]);
-                let spans: Vec<[Vector; 2]> = contacts.map(ends).collect();
+                let spans = joined.get(&[*one, *other]).map_or(&[][..], Vec::as_slice);
                 let is_covered = |at: &Vector| spans.iter().any(|[a, b]| distance_squared(at, a, b) <= covered);
-                let edges = bodies.map(edges);
+                let edges =
+                    [edges(bodies[0], &boxes[*other].grown(reach)), edges(bodies[1], &boxes[*one].grown(reach))];
                 if bodies.iter().any(|body| body.circle.is_some()) {
-                    if self.circles_touch(bodies, &edges, &spans) {
+                    if self.circles_touch(bodies, &edges, spans) {
                         faults.push(format!("{} and {} touch without a contact", bodies[0].id, bodies[1].id));
                     }
                     continue;
                 }
-                for [a, b] in &edges[0] {
-                    for [c, d] in &edges[1] {
+                for (around, [a, b]) in &edges[0] {
+                    if is_spent() {
+                        return faults;
+                    }
+                    spend(2 * edges[1].len());
+                    let around = around.grown(reach);
+                    for (_, [c, d]) in edges[1].iter().filter(|(other, _)| around.intersects(other)) {
                         let near = [(a, c, d), (b, c, d), (c, a, b), (d, a, b)];
                         let near = near.into_iter().filter(|(at, p, q)| distance_squared(at, p, q) <= allowed);
                         let bare: Vec<&Vector> = near.map(|(at, ..)| at).filter(|at| !is_covered(at)).collect();
@@ -139,7 +166,7 @@ impl Certificate {
     ///
     /// The foot of a circle on an edge must lie at a contact. Beside a contact, an edge leaves the circle slowly: at a
     /// chord whose square is 4 r d, the gap is twice the distance d.
-    fn circles_touch(&self, bodies: [&BodyForm; 2], edges: &[Vec<[Vector; 2]>; 2], spans: &[[Vector; 2]]) -> bool {
+    fn circles_touch(&self, bodies: [&BodyForm; 2], edges: &[Vec<Edge>; 2], spans: &[[Vector; 2]]) -> bool {
         let distance = Rational::exact(self.distance);
         if let [Some(one), Some(other)] = bodies.map(|body| body.circle) {
             let away = square_length(&Vector::new(one.centre).minus(&Vector::new(other.centre)));
@@ -152,7 +179,7 @@ impl Certificate {
             let reach = square(&(&radius + &distance));
             let covered =
                 square(&Rational::exact(2.0 * self.distance + self.shortest)) + Rational::from(4) * &radius * &distance;
-            edges[1 - k].iter().any(|[a, b]| {
+            edges[1 - k].iter().any(|(_, [a, b])| {
                 let along = b.minus(a);
                 let (length, place) = (square_length(&along), along.dot(&centre.minus(a)));
                 let is_end = place < Rational::ZERO || place > length;
@@ -169,8 +196,8 @@ impl Certificate {
 
 /// True if both edges of a body that meet at a corner lie on its own side of the contact: along the normal for the first
 /// body (sign 1), against it for the second (sign −1).
-fn separates(normal: &Vector, edges: &[[Vector; 2]], sign: i32, at: &Vector, allowed: &Rational) -> bool {
-    let ends = edges.iter().flat_map(|[a, b]| [(a, b), (b, a)]);
+fn separates(normal: &Vector, edges: &[Edge], sign: i32, at: &Vector, allowed: &Rational) -> bool {
+    let ends = edges.iter().flat_map(|(_, [a, b])| [(a, b), (b, a)]);
     let ways = ends.filter(|(near, _)| square_length(&near.minus(at)) <= *allowed).map(|(near, far)| far.minus(near));
     let ways: Vec<Vector> = ways.collect();
     ways.len() == 2
@@ -184,9 +211,38 @@ fn separates(normal: &Vector, edges: &[[Vector; 2]], sign: i32, at: &Vector, all
 /// within the contact tolerance may be turned by about 0.1°.
 const ANGLE_SQUARED: f64 = 1e-4;
 
-/// The edges of a body, with its inside on the left; none for a circle.
-fn edges(body: &BodyForm) -> Vec<[Vector; 2]> {
-    std::iter::once(&body.outline).chain(&body.holes).flat_map(|ring| sides(ring)).collect()
+/// A box around all.
+const EVERYWHERE: Aabb = Aabb { min: [f64::NEG_INFINITY; 2], max: [f64::INFINITY; 2] };
+
+/// The edges of a body whose boxes meet a box; none for a circle.
+fn edges(body: &BodyForm, around: &Aabb) -> Vec<Edge> {
+    let rings = std::iter::once(&body.outline).chain(&body.holes);
+    let sides = rings.flat_map(|ring| {
+        spend(5 * ring.len());
+        ring.iter().zip(ring.iter().cycle().skip(1))
+    });
+    let near = sides.map(|(p, q)| (bounds([p, q]), [p, q])).filter(|(own, _)| own.intersects(around));
+    near.map(|(own, ends)| (own, ends.map(|at| Vector::new(*at)))).collect()
+}
+
+/// The box around points.
+fn bounds<'p>(points: impl IntoIterator<Item = &'p Pair>) -> Aabb {
+    let none = Aabb { min: [f64::INFINITY; 2], max: [f64::NEG_INFINITY; 2] };
+    points.into_iter().fold(none, |Aabb { min, max }, p| Aabb {
+        min: [min[0].min(p[0]), min[1].min(p[1])],
+        max: [max[0].max(p[0]), max[1].max(p[1])],
+    })
+}
+
+impl BodyForm {
+    /// The box around the body.
+    fn bounds(&self) -> Aabb {
+        spend(5 * self.outline.len());
+        let ends = self.circle.map(|CircleForm { centre, radius }| {
+            [centre.map(|at| (at - radius).next_down()), centre.map(|at| (at + radius).next_up())]
+        });
+        bounds(self.outline.iter().chain(ends.iter().flatten()))
+    }
 }
 
 /// The square of the distance of a point from a segment.
@@ -200,16 +256,4 @@ fn distance_squared(at: &Vector, a: &Vector, b: &Vector) -> Rational {
     } else {
         square(&along.cross(&from)) / length
     }
-}
-
-/// True if the boxes around two bodies, grown by twice the distance, meet. Bodies for which this is false do not touch.
-fn boxes_meet(bodies: [&BodyForm; 2], distance: f64) -> bool {
-    [0, 1].iter().all(|axis| {
-        let [one, other] = bodies.map(|body| {
-            let ends = body.circle.map(|circle| [-1.0, 1.0].map(|sign| circle.centre[*axis] + sign * circle.radius));
-            let places = body.outline.iter().map(|p| p[*axis]).chain(ends.into_iter().flatten());
-            places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
-        });
-        one[0] - 2.0 * distance <= other[1] && other[0] - 2.0 * distance <= one[1]
-    })
 }
