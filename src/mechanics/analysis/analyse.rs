@@ -205,6 +205,14 @@ fn find_margins(
     let (margins, decided_count) = margin::find_margins(&parts, kinds, known);
     let name = |robot: RobotId| scene.robots[robot.0].id.clone();
     analysis.notices.extend(margins.intervals.withheld(name));
+    let most = parts.iter().map(|part| part.component.grips.len()).max().unwrap_or_default();
+    if kinds.has(margin::MarginKind::Robots) && most > margin::MAX_ROBOTS {
+        analysis.notices.push(format!(
+            "margins: {most} robots that hold connected blocks are too many, the limits of at most {} are \
+             examined; use fewer robots",
+            margin::MAX_ROBOTS
+        ));
+    }
     analysis.margins = Some(margins);
     Some(decided_count)
 }

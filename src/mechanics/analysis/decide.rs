@@ -160,7 +160,8 @@ pub(super) fn decide_component(assembly: &Assembly, options: Options) -> Outcome
     let program = Program::new(assembly, component.scale);
     // Count the unknowns first: they are reported for each effect, even if no program is solved.
     let count = UnknownCounts::new(&program);
-    if let Some(outcome) = component.in_closed_form(&program) {
+    let closed = (!options.is_overdue()).then(|| component.in_closed_form(&program));
+    if let Some(outcome) = closed.flatten() {
         return Outcome { count, ..outcome };
     }
     // First leave out those limits of robots that are far above the loads. If the resulting forces exceed such a limit,

@@ -14,7 +14,7 @@ use super::thrust_states::cheapest_forces;
 use super::{FrameAnalysis, Motion, Options, Verdict};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::{BlockId, BodyId, Movement, Scene};
-use crate::mechanics::solve::{DeadlineGuard, Status};
+use crate::mechanics::solve::{DeadlineGuard, Status, is_late};
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::Interfaces;
@@ -130,6 +130,9 @@ fn outcome(scene: &Scene, found: &FrameAnalysis, components: &[Assembly], moveme
     let unit = reached.map(|at| movement.at(at).norm()).fold(0.0, f64::max);
     if unit == 0.0 {
         return MovementOutcome::Untouched;
+    }
+    if is_late() {
+        return MovementOutcome::Unsolved;
     }
     let mut state = found.clone();
     let mut motions: BTreeMap<BlockId, Motion> = BTreeMap::new();

@@ -3,12 +3,17 @@
 //! The accuracy changes the cost of a verdict and the strength of its proof. No accuracy allows a verdict without a
 //! proof.
 
+use std::time::Duration;
+
 use super::capacity::CapacityRequest;
 use super::margin::{MarginKind, MarginKinds};
 use super::reach::Reach;
 use crate::clock::Instant;
 use crate::mechanics::proof::ProofThreshold;
 use crate::mechanics::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
+
+/// So long after the deadline, closed forms end too. One takes less than a thousandth of a second for most components.
+const OVERDUE: Duration = Duration::from_millis(100);
 
 /// The options of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -127,6 +132,11 @@ impl Options {
     /// True if the deadline has passed.
     pub(crate) fn is_late(self) -> bool {
         self.deadline.is_some_and(|end| Instant::now() >= end)
+    }
+
+    /// True if the deadline passed so long ago that closed forms end too: many frames or load cases take long.
+    pub(super) fn is_overdue(self) -> bool {
+        self.deadline.is_some_and(|end| Instant::now().saturating_duration_since(end) > OVERDUE)
     }
 
     /// Returns the solver settings with plain and with full conditioning. They are tried in this order until a proof is

@@ -5,6 +5,9 @@
 //! load factor. It is proved like every margin. A motion with which a state falls gives a lower bound for each block, so
 //! that only blocks with small bounds are tried.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use super::capacity::decided;
 use super::margin::{End, Interval, MarginKind, Setting, interval_of};
 use super::removable::{NotFound, least_hold};
@@ -12,7 +15,7 @@ use super::{FrameAnalysis, Options, Verdict};
 use crate::geometry::{Point, Polygon, Vector};
 use crate::mechanics::proof::{Motion, net_power};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
-use crate::mechanics::solve::DeadlineGuard;
+use crate::mechanics::solve::{DeadlineGuard, is_late};
 use crate::mechanics::statics::assembly::{Assembly, LoadVector};
 use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::{Interface, Interfaces};
@@ -20,6 +23,9 @@ use crate::text::Word;
 
 /// At most this many blocks or pairs of blocks are tried for a change.
 const MAX_TRIED: usize = 12;
+
+/// At most this many blocks are examined, in all load cases with and without the target. Each takes about 700 bytes.
+const MAX_BLOCKS: usize = 500_000;
 
 /// A value that a margin must reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,14 +94,22 @@ pub(super) fn add_reach<'f>(
     let Some(target) = options.reach else { return };
     let _until = DeadlineGuard::new(options.deadline);
     for (number, found) in frames {
-        if options.is_late() {
+        let count = scene.frames[number].placed.len() * scene.cases.len().max(1) * settings(target).len();
+        if count > MAX_BLOCKS {
+            found.notices.push(format!(
+                "reach: {count} blocks in all load cases, with and without the target, are too many, at most {MAX_BLOCKS} \
+                 are examined; give fewer load cases"
+            ));
+        }
+        if count > MAX_BLOCKS || options.is_late() {
             found.reach = Some(Reached { target, verdict: Verdict::Undecided, changes: Vec::new() });
             continue;
         }
         let states = scene.alone(number).map(|alone| states(&alone, target)).unwrap_or_default();
         // The frame is also undecided if its verdict depends on gaps.
         let is_open = |verdict: Verdict| verdict == Verdict::Undecided;
-        let is_undecided = is_open(found.verdict) || states.iter().any(|state| is_open(state.verdict));
+        let is_undecided =
+            options.is_late() || is_open(found.verdict) || states.iter().any(|state| is_open(state.verdict));
         let worst = states.iter().map(|state| state.verdict).max().unwrap_or(Verdict::Stable);
         let verdict = if is_undecided { Verdict::Undecided } else { worst };
         let search = Search { states };
@@ -115,7 +129,7 @@ pub(super) fn add_reach<'f>(
 /// A frame as it is or at the target.
 struct State {
     /// The scene in its load case, and what changes at the target.
-    scene: Scene,
+    scene: Arc<Scene>,
     setting: Setting,
     /// The force of each newton of weight.
     pull: Vector,
@@ -124,24 +138,30 @@ struct State {
     verdict: Verdict,
     /// The motion with which the frame falls, and the power of all forces along it.
     motion: Vec<Motion>,
+    velocities: BTreeMap<BlockId, Vector>,
     power: f64,
 }
 
-/// Returns the states of a scene with one frame.
-fn states(scene: &Scene, target: Reach) -> Vec<State> {
-    let bases = match scene.cases.as_slice() {
-        [] => vec![(scene.clone(), 1.0)],
-        _ => scene.in_cases().map(|(case, scene)| (scene, case.weights)).collect(),
-    };
+/// Returns the settings in which a frame is examined: as it is, and at the target.
+fn settings(target: Reach) -> Vec<Setting> {
     let sides: &[f64] = if target.kind == MarginKind::LoadFactor { &[1.0] } else { &[-1.0, 1.0] };
     let changes = sides.iter().map(|side| Setting::at(target.kind, side * target.value));
-    let settings: Vec<Setting> = std::iter::once(Setting::default()).chain(changes).collect();
-    let each = bases.iter().flat_map(|base| settings.iter().map(move |setting| (base, *setting)));
-    each.map(|((scene, weights), setting)| State::new(scene.clone(), *weights, setting)).collect()
+    std::iter::once(Setting::default()).chain(changes).collect()
+}
+
+/// Returns the states of a scene with one frame; not all of them after the deadline.
+fn states(scene: &Scene, target: Reach) -> Vec<State> {
+    let bases: Box<dyn Iterator<Item = (Arc<Scene>, f64)>> = match scene.cases.as_slice() {
+        [] => Box::new(std::iter::once((Arc::new(scene.clone()), 1.0))),
+        _ => Box::new(scene.in_cases().map(|(case, scene)| (Arc::new(scene), case.weights))),
+    };
+    let settings = &settings(target);
+    let each = bases.flat_map(|(scene, weights)| settings.iter().map(move |own| (scene.clone(), weights, *own)));
+    each.take_while(|_| !is_late()).map(|(scene, weights, setting)| State::new(scene, weights, setting)).collect()
 }
 
 impl State {
-    fn new(scene: Scene, weights: f64, setting: Setting) -> State {
+    fn new(scene: Arc<Scene>, weights: f64, setting: Setting) -> State {
         let given = effect::assembly_of(&scene, &scene.frames[0], &Interfaces::new(&scene));
         let mut assembly = setting.apply(&given);
         for body in &mut assembly.bodies {
@@ -150,7 +170,8 @@ impl State {
         let assembly = assembly.with_load_factor(1.0);
         let (verdict, motion) = decided(&assembly.components());
         let power = net_power(&assembly, &motion);
-        State { pull: assembly.pull * weights, scene, setting, assembly, verdict, motion, power }
+        let velocities = motion.iter().map(|own| (own.block, own.velocity)).collect();
+        State { pull: assembly.pull * weights, scene, setting, assembly, verdict, motion, velocities, power }
     }
 
     fn centre(&self, block: BlockId) -> Point {
@@ -167,9 +188,11 @@ impl State {
 
     /// Returns a lower bound for the amount of a change; infinite if no amount stops the motion.
     fn bound(&self, what: ChangeKind, blocks: &[BlockId]) -> f64 {
-        let velocity = |block: BlockId| self.motion.iter().find(|own| own.block == block).map(|own| own.velocity);
+        if is_late() {
+            return f64::INFINITY;
+        }
         let against = |(block, force): &(BlockId, Vector)| {
-            let velocity = velocity(*block).unwrap_or_default();
+            let velocity = self.velocities.get(block).copied().unwrap_or_default();
             if what == ChangeKind::Hold { velocity.norm() } else { -velocity.dot(force) }
         };
         let rate: f64 = self.unit(what, blocks).iter().map(against).sum();
@@ -237,6 +260,9 @@ impl Search {
         let bound = |own: &Vec<BlockId>| self.falling().map(|state| state.bound(change.what, own)).fold(0.0, f64::max);
         let mut open: Vec<(f64, Vec<BlockId>)> = candidates.into_iter().map(|own| (bound(&own), own)).collect();
         open.retain(|(bound, _)| bound.is_finite());
+        if is_late() {
+            return Err(NotFound);
+        }
         open.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut is_missing = open.len() > MAX_TRIED;
         for (bound, blocks) in open.into_iter().take(MAX_TRIED) {
@@ -284,7 +310,7 @@ impl Search {
         let stands = |hundredths: u32| {
             self.states.iter().all(|state| {
                 let scene = thickened(&state.scene, f64::from(hundredths) * 1e-2);
-                scene.is_some_and(|scene| State::new(scene, 1.0, state.setting).verdict == Verdict::Stable)
+                scene.is_some_and(|scene| State::new(scene.into(), 1.0, state.setting).verdict == Verdict::Stable)
             })
         };
         let mut found = [125, 150, 200, 300, 400].into_iter().find(|factor| stands(*factor))?;

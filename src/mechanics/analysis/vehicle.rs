@@ -14,7 +14,7 @@ use super::{FrameAnalysis, Motion, Options, Verdict};
 use crate::geometry::{Edge, Point, Vector, quarter_turn};
 use crate::mechanics::proof::Forces;
 use crate::mechanics::scene::{BlockId, Frame, Scene, Vehicle};
-use crate::mechanics::solve::DeadlineGuard;
+use crate::mechanics::solve::{DeadlineGuard, is_late};
 use crate::mechanics::statics::assembly::{Assembly, load_about};
 use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::Interfaces;
@@ -58,13 +58,16 @@ pub(super) fn add_influence(scene: &Scene, interfaces: &Interfaces, frames: &mut
     for (frame, found) in scene.frames.iter().zip(frames) {
         let stands = found.verdict == Verdict::Stable;
         found.vehicle = if stands { influence(scene, frame, interfaces, vehicle) } else { None };
+        if stands && options.is_late() {
+            found.notices.push("vehicle: the time limit was reached".to_owned());
+        }
         let positions = found.vehicle.as_ref().map(|influence| influence.positions.len());
         found.effects.push(effect::report::vehicle(stands, positions));
     }
 }
 
 /// Returns the influence line of a frame. `None` if it does not stand without its loads, if no position is on the track,
-/// or if there are too many positions.
+/// if there are too many positions, or after the deadline.
 fn influence(scene: &Scene, frame: &Frame, interfaces: &Interfaces, vehicle: &Vehicle) -> Option<Influence> {
     let components = effect::assembly_of(scene, frame, interfaces).components();
     let unloaded = components.iter().map(|own| Some(decided_forces(&own.clone().with_load_factor(0.0))?.0));
@@ -76,6 +79,9 @@ fn influence(scene: &Scene, frame: &Frame, interfaces: &Interfaces, vehicle: &Ve
     let present: Vec<End> = pairs().map(|(own, forces)| largest_load_factor(own, forces)).collect();
     let (mut governing, mut mechanism) = (None, Vec::new());
     for (number, position) in positions.iter_mut().enumerate() {
+        if is_late() {
+            return None;
+        }
         for ((component, forces), present) in pairs().zip(&present) {
             let loaded = with_axles(scene, component, vehicle, position);
             let own = loaded.map_or_else(|| present.clone(), |loaded| largest_load_factor(&loaded, forces));
@@ -165,6 +171,10 @@ impl Top {
 /// Returns the positions of a vehicle that are analysed; `None` if there are none or too many.
 fn positions(scene: &Scene, vehicle: &Vehicle, track: &[Top]) -> Option<Vec<VehiclePosition>> {
     let (first, last) = (track.first()?.from, track.last()?.to);
+    // Most axles have a position of their own at each end of an edge.
+    if vehicle.step == 0.0 && vehicle.axles.len() * track.len() > 100 * MAX_POSITIONS {
+        return None;
+    }
     let across = quarter_turn(scene.down());
     let mut positions = Vec::new();
     for to_right in [true, false] {

@@ -38,7 +38,7 @@ pub use interval::Exclusion;
 pub use interval::{End, Interval, Intervals, RobotIntervals};
 pub use kind::{MarginKind, MarginKinds};
 pub use margins::{Margin, Margins, RobotMargins, Sides};
-pub(super) use parameter::largest_load_factor;
+pub(super) use parameter::{MAX_ROBOTS, largest_load_factor};
 use path::Path;
 use trial::Trial;
 pub use trial::trials;

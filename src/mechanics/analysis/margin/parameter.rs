@@ -35,7 +35,8 @@ use crate::mechanics::statics::assembly::Assembly;
 /// stands. `with_tilt` is true if the tilt is requested and the whole frame stands; only then are the tilts around 0
 /// computed.
 pub(super) fn intervals(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_tilt: bool) -> Intervals {
-    let robots = if kinds.has(MarginKind::Robots) { robots(trial, stands) } else { Vec::new() };
+    let is_asked = kinds.has(MarginKind::Robots) && trial.holds().len() <= MAX_ROBOTS;
+    let robots = if is_asked { robots(trial, stands) } else { Vec::new() };
     let along = |kind: MarginKind, present: f64, trial: &mut Trial| {
         let path = Path::of(kind, trial);
         linear(trial, &path, present, stands)
@@ -222,6 +223,9 @@ fn end(
         _ => line.end(trial, start, outward, None),
     }
 }
+
+/// The limits of more robots that hold one component are not examined: their time grows with the square of this number.
+pub(in crate::mechanics::analysis) const MAX_ROBOTS: usize = 2000;
 
 /// The least number of limits that are tried as a group. The three limits of two robots are found sooner one by one.
 const MIN_GROUP: usize = 8;
