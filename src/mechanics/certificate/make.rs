@@ -61,7 +61,8 @@ impl Certificate {
     }
 
     /// Proves the verdict of each frame, one for all frames that share their results, and notes whether the proof is
-    /// exact. `keep` has the proved frame, and what its limits are proved from; it returns whether it kept all. Returns the certificate without frames.
+    /// exact. `keep` has the proved frame, and what its limits are proved from; it returns whether it kept all. Returns the
+    /// certificate without frames.
     fn prove_each(analysis: &mut Analysis, mut keep: impl FnMut(&FrameForm, &Limits<'_>) -> bool) -> Certificate {
         let mut latest = analysis.scene.clone();
         let interfaces = Interfaces::new(&latest);

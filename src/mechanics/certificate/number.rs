@@ -7,8 +7,9 @@ pub(super) use dashu_ratio::Relaxed as Rational;
 
 use crate::mechanics::solve::is_late;
 
-/// The work that the check of a certificate may need, in products of two words of 64 bits, and that for each byte of it. A
-/// thousand million take about a second. Certificates of this program need up to 500 for each byte.
+/// The work that the check of a certificate may need, and further work for each of its bytes; the unit is a product of two
+/// words of 64 bits. A thousand million of them take about a second. Certificates of this program need at most 500 for
+/// each byte.
 pub(super) const WORK: [u64; 2] = [2_000_000_000, 1_500];
 
 thread_local! {
