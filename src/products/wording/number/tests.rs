@@ -81,6 +81,12 @@ fn round_numbers_are_never_above_the_value() {
 }
 
 #[test]
+fn ends_of_margins_are_rounded_to_the_safe_side_and_keep_their_exponents() {
+    assert_eq!([three_down(2.4999), three_up(2.4921), three_down(2.5)], ["2.49", "2.5", "2.5"]);
+    assert_eq!([three_down(1e10), three_up(2e20)], ["1.000e10", "2.000e20"]);
+}
+
+#[test]
 fn numbers_are_short_and_keep_four_digits() {
     let cases = [
         (0.0, "0"),
