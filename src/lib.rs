@@ -311,9 +311,6 @@ pub mod doc {
     #[doc = include_str!("doc/questions.md")]
     pub mod questions {}
 
-    #[doc = include_str!("doc/claims.md")]
-    pub mod claims {}
-
     #[doc = include_str!("doc/references.md")]
     pub mod references {}
 }

@@ -1,7 +1,7 @@
 //! Compares our solver, which uses the normal equations, with clarabel. Both solve the same programs of walls that
 //! are upright, near their limit or falling.
 //!
-//! `cargo bench --bench solvers` prints the rows of `src/doc/performance.md`: iterations and milliseconds of each
+//! `cargo bench --bench solvers` prints a row for each program: iterations and milliseconds of each
 //! solver, and their ratio. `BLOCKS=10000` includes the wall of that size.
 
 #![allow(

@@ -1,5 +1,5 @@
 //! The statements of results and captions are compared with other known values: sums with the listed forces, used
-//! fractions with forces and limits, motions with contacts, margins with verdicts. `src/doc/claims.md` lists all
+//! fractions with forces and limits, motions with contacts, margins with verdicts. `claims/list.md` lists all
 //! statements.
 //!
 //! These tests read the JSON that other programs read, and compute their geometry separately. So they also find a
@@ -24,6 +24,9 @@ use serde_json::{Value, json};
 
 use crate::oracle::random;
 use crate::structure::{arch, harmonic, on_slope, scene, wall};
+
+/// The statements, each with the tests that would notice that it is false.
+const LIST: &str = include_str!("claims/list.md");
 
 /// A scene file, its result in the JSON of `check --json`, and the unit of length L, m.
 struct Checked {
@@ -132,8 +135,7 @@ fn captions_say_what_the_result_says() {
 fn every_test_named_in_the_list_exists() {
     let root = env!("CARGO_MANIFEST_DIR");
     let read = |path: String| std::fs::read_to_string(path).unwrap_or_default();
-    let text = read(format!("{root}/src/doc/claims.md"));
-    let named = text.split('`').skip(1).step_by(2).filter(|word| word.contains("::"));
+    let named = LIST.split('`').skip(1).step_by(2).filter(|word| word.contains("::"));
     let mut seen = 0;
     for name in named.filter(|name| *name != "file::test") {
         let (file, test) = name.rsplit_once("::").expect("a test has a file");
@@ -148,9 +150,7 @@ fn every_test_named_in_the_list_exists() {
 /// Every key of a result that is a number, a word or a sentence is in the list of claims, with at least one test.
 #[test]
 fn every_key_of_a_result_has_a_test() {
-    let root = env!("CARGO_MANIFEST_DIR");
-    let text = std::fs::read_to_string(format!("{root}/src/doc/claims.md")).expect("readable");
-    let (_, section) = text.split_once("## Every key of a result").expect("a section");
+    let (_, section) = LIST.split_once("## Every key of a result").expect("a section");
     let section = section.split("\n## ").next().unwrap_or_default();
     let quoted = |cell: &str| -> Vec<String> {
         let words = cell.split('`').skip(1).step_by(2);
