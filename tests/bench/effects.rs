@@ -1,8 +1,8 @@
 //! The cost of each effect. Each effect is switched on alone for the same wall. The table lists the number of
 //! unknowns in the result, and the time relative to the wall with only weight and contact.
 //!
-//! `cargo bench --bench effects` prints a table; `src/doc/performance.md` gives its ratios. The measurements of all walls
-//! alternate; each time is a median.
+//! `cargo bench --bench effects` prints a table; `src/doc/performance.md` gives its ratios. The measurements of all
+//! walls alternate; each time is a median.
 
 #![allow(
     clippy::print_stdout,

@@ -2,8 +2,8 @@
 //! tilted and with vertical gravity. Both are also compared with the time of the solver alone. It solves only the
 //! program with hard constraints of the source, which shows whether forces exist, and not where a structure fails.
 //!
-//! `cargo bench --bench falls` prints a table; `src/doc/performance.md` gives its ratios. With arguments after `--`, such as `--
-//! "wall 915"`, only the rows whose name contains all of them are measured. `BLOCKS=10000` includes structures of
+//! `cargo bench --bench falls` prints a table; `src/doc/performance.md` gives its ratios. With arguments after
+//! `--`, such as `-- "wall 915"`, only the rows whose name contains all of them are measured. `BLOCKS=10000` includes structures of
 //! more than 2 100 blocks. The measurements of a row alternate, and each value is a median. Walls are in running
 //! bond, μ is 0.7.
 
