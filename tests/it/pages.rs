@@ -365,6 +365,13 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
             "cases": [{ "id": "with" }, { "id": "without", "loads": {} }] }"#
             .to_owned(),
     );
+    // A beam that falls under an axle at its end.
+    texts.push(
+        r#"{ "drystone": 1, "ground": [{ "polygon": [[0, -1], [1, -1], [1, 0], [0, 0]] }],
+            "blocks": [{ "polygon": [[-1, 0], [2, 0], [2, 1], [-1, 1]], "weight": 6 }],
+            "vehicle": { "axles": [{ "weight": 4 }] } }"#
+            .to_owned(),
+    );
     for folder in ["assets/questions", "assets/thesis", "tests/scenes"] {
         let mut files: Vec<_> = std::fs::read_dir(root.join(folder))
             .expect("readable")

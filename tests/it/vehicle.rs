@@ -1,7 +1,8 @@
 //! A vehicle that travels over a structure, against single checks of the same loads.
 
-use drystone::analysis::{Influence, MarginKind, MarginKinds, Options};
+use drystone::analysis::{Influence, MarginKind, MarginKinds, Options, Verdict, verdicts};
 use drystone::result::{Layout, Timing, to_json};
+use drystone::session::Session;
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
@@ -104,7 +105,8 @@ fn an_axle_on_a_balanced_beam_agrees_with_sums_by_hand() {
     let json: Value = serde_json::from_str(&text).expect("JSON");
     let vehicle = &json["frames"][0]["vehicle"];
     let positions = vehicle["positions"].as_array().expect("a list");
-    let expected = [Some(1.5), Some(3.0), None, None, None, Some(3.0)];
+    // Positions with a step contain the ends of the beam.
+    let expected = [Some(1.5), Some(3.0), None, None, None, Some(3.0), Some(1.5)];
     assert_eq!(positions.len(), expected.len(), "one way only, because a single axle is symmetric: {positions:?}");
     for (number, (position, factor)) in positions.iter().zip(expected).enumerate() {
         assert!((position["at"].as_f64().expect("a number") - (0.5 * number as f64 - 1.0)).abs() < 1e-9);
@@ -133,4 +135,79 @@ fn a_vehicle_needs_axles_and_known_blocks() {
     assert!(refused(json!({ "axles": [] })).contains("the vehicle has no axle"));
     assert!(refused(json!({ "axles": [{ "weight": -1 }] })).contains("negative weight"));
     assert!(refused(json!({ "axles": [{ "weight": 1 }], "over": ["bean"] })).contains("`beam`"));
+}
+
+/// The beam with an axle of this weight: at its left end it tips about x = 0 if the weight exceeds 6 · 0.5 / 1 = 3.
+fn at_left_end(weight: f64) -> Value {
+    beam(json!({ "axles": [{ "weight": weight }], "over": ["beam"] }))
+}
+
+#[test]
+fn a_structure_that_falls_under_its_vehicle_falls() {
+    let analysis = Analysis::new(scene(&at_left_end(3.5)));
+    let frame = &analysis.frames[0];
+    assert_eq!(frame.verdict, Verdict::Unstable);
+    let under = frame.under_vehicle.expect("the vehicle decides");
+    assert_eq!(under.alone, Verdict::Stable);
+    // The results are those at the governing position: the axle is a load there, and the beam turns about x = 0.
+    let position = &frame.vehicle.as_ref().expect("an influence line").positions[under.position.expect("a position")];
+    assert!((position.factor.expect("a factor") - 3.0 / 3.5).abs() < 1e-5);
+    let loads = analysis.scene_of(0).loads();
+    assert_eq!((loads.len(), loads[0].at.x, loads[0].force.y), (1, -1.0, -3.5));
+    assert!(!frame.failures.is_empty() && !frame.mechanism.is_empty());
+    let json: Value =
+        serde_json::from_str(&to_json(&analysis, Timing::LeftOut, Layout::OneLine)).expect("JSON of the result");
+    let frame = &json["frames"][0];
+    assert_eq!((&frame["verdict"], &frame["verdict_without_vehicle"]), (&json!("unstable"), &json!("stable")));
+    assert!(frame["governing_position"].is_u64());
+    // The verdict alone is the same, and so is that of a structure that carries its vehicle.
+    let verdict = |file: &Value, options: &Options| Analysis::with(scene(file), options).verdict();
+    let only = Options::default().verdict_only(true);
+    assert_eq!(verdict(&at_left_end(3.5), &only), Verdict::Unstable);
+    for options in [Options::default(), only] {
+        assert_eq!(verdict(&at_left_end(2.9), &options), Verdict::Stable);
+    }
+    // The quick verdicts of `batch` and a session ask the same question.
+    for (weight, expected) in [(3.5, Verdict::Unstable), (2.9, Verdict::Stable)] {
+        let file = at_left_end(weight);
+        assert_eq!(verdicts(&scene(&file), &Options::default()), [expected]);
+        let session = Session::new(serde_json::from_value(file).expect("a scene file")).expect("a sound scene");
+        assert_eq!(session.verdict(), expected);
+    }
+}
+
+#[test]
+fn a_structure_that_needs_its_loads_is_decided_with_them_at_each_position() {
+    // The beam, moved to x = -2 … 1, tips about x = 0 without the load on its right end: 6 · 0.5 against 4 · 0.5.
+    let with = |axle: f64| {
+        let mut file = beam(json!({ "axles": [{ "weight": axle }], "over": ["beam"] }));
+        file["blocks"][1]["polygon"] = json!([[-2, 1], [1, 1], [1, 1.5], [-2, 1.5]]);
+        file["loads"] = json!([{ "block": "beam", "at": [0.75, 1.5], "force": [0, -4.5] }]);
+        Analysis::new(scene(&file))
+    };
+    // 6 · 0.5 = 3 < 4.5 · 0.75 = 3.375: an axle at x = -2 may weigh 0.1875.
+    assert_eq!(with(0.18).verdict(), Verdict::Stable);
+    let falls = with(0.2);
+    assert_eq!(falls.verdict(), Verdict::Unstable);
+    assert_eq!(falls.frames[0].under_vehicle.map(|under| under.position), Some(None));
+}
+
+#[test]
+fn the_least_factor_of_two_load_cases_is_the_same_whatever_else_is_computed() {
+    // The case `light` leaves half of the counterweight: 6 · 0.5 · 0.5 = λ 2 · 1.
+    let mut file = at_left_end(1.0);
+    file["cases"] = json!([{ "id": "full" }, { "id": "light", "weights": 0.5 }]);
+    let least = |options: &Options| {
+        let frame = Analysis::with(scene(&file), options).frames.remove(0);
+        let line = frame.vehicle.clone().expect("an influence line");
+        line.positions[line.governing.expect("a position")].factor.expect("a factor")
+    };
+    for options in [Options::default(), Options::default().margins(true)] {
+        assert!((least(&options) - 1.5).abs() < 1e-5, "{}", least(&options));
+    }
+    // An axle of 2 stands in the case `full` only.
+    file["vehicle"]["axles"][0]["weight"] = json!(2.0);
+    let analysis = Analysis::new(scene(&file));
+    assert_eq!(analysis.verdict(), Verdict::Unstable);
+    assert_eq!(analysis.frames[0].cases.as_ref().expect("cases").governing, 1);
 }

@@ -5,8 +5,8 @@
 
 use std::sync::Arc;
 
-use super::{Analysis, FrameAnalysis, Margin, Margins, Options, Verdict, reach, repeat};
-use crate::mechanics::scene::{Case, Load, Scene};
+use super::{Analysis, FrameAnalysis, Influence, Margin, Margins, Options, Verdict, reach, repeat};
+use crate::mechanics::scene::{Case, Load, Note, Scene};
 
 /// The results of all load cases of one frame.
 #[derive(Clone, Debug, Default)]
@@ -43,16 +43,21 @@ pub struct Envelope {
     pub friction: [f64; 2],
 }
 
-/// The scenes of an analysis with load cases.
+/// The scenes of an analysis with load cases, or of frames that fall under a vehicle.
 #[derive(Clone, Debug)]
 pub(crate) struct CaseScenes {
-    /// The scene with its cases.
+    /// The scene as its author wrote it, with its cases.
     given: Arc<Scene>,
-    /// For each frame, the scene in the worst case of this frame.
+    /// For each frame, the scene with the weights and loads to which its results belong.
     of_frames: Vec<Arc<Scene>>,
 }
 
 impl CaseScenes {
+    /// Returns the scene of a frame, to change it.
+    pub(super) fn scene_mut(&mut self, number: usize) -> &mut Scene {
+        Arc::make_mut(&mut self.of_frames[number])
+    }
+
     /// Returns the scenes with only one of their frames. `None` if there is no such frame.
     pub(super) fn alone(&self, number: usize) -> Option<CaseScenes> {
         let own = self.of_frames.get(number)?.alone(number)?;
@@ -98,6 +103,7 @@ impl Analysis {
         let source = repeat::source_of_each(&scene.frames);
         let (mut frames, mut scenes, mut notes) = (Vec::<Arc<FrameAnalysis>>::new(), Vec::new(), Vec::new());
         let mut cases: Vec<LoadCases> = Vec::new();
+        let mut lines: Vec<Option<Influence>> = Vec::new();
         let mut latest: Option<Analysis> = None;
         for (k, (case, in_case)) in scene.in_cases().enumerate() {
             // If nothing was decided before the deadline, nothing is decided in the other cases either.
@@ -109,7 +115,8 @@ impl Analysis {
             if k == 0 {
                 notes = std::mem::take(&mut found.notes);
                 frames.clone_from(&found.frames);
-                scenes = vec![found.scene.clone(); frames.len()];
+                scenes = (0..frames.len()).map(|number| found.scene_of(number).clone()).collect();
+                lines = frames.iter().map(|frame| frame.vehicle.clone()).collect();
                 let range = |k: usize| if source[k] == k { envelope(&frames[k]) } else { Vec::new() };
                 let first = |k| LoadCases { governing: 0, each: Vec::new(), envelope: range(k) };
                 cases = (0..frames.len()).map(first).collect();
@@ -121,9 +128,14 @@ impl Analysis {
                     range.normal = wider(range.normal, own.normal);
                     range.friction = wider(range.friction, own.friction);
                 }
+                // The influence line of a frame has the least factors of all cases.
+                lines[number] = lines[number].take().zip(frame.vehicle.as_ref()).map(|(mut line, own)| {
+                    line.keep_least(own);
+                    line
+                });
                 if is_worse(frame, &frames[number]) {
                     frames[number] = frame.clone();
-                    scenes[number] = found.scene.clone();
+                    scenes[number] = found.scene_of(number).clone();
                     cases[number].governing = k;
                 }
             }
@@ -132,19 +144,29 @@ impl Analysis {
         let mut own: Vec<_> = own.map(|(k, frame)| (k, Arc::make_mut(frame))).collect();
         for (k, frame) in &mut own {
             frame.cases = Some(std::mem::take(&mut cases[*k]));
+            frame.vehicle = lines[*k].take();
         }
         reach::add_reach(&scene, own.into_iter(), options);
         for (k, source) in source.into_iter().enumerate() {
             (frames[k], scenes[k]) = (frames[source].clone(), scenes[source].clone());
         }
-        // Results of the whole scene, such as a list of inputs, show the case of the worst frame.
-        let worst = worst_of(&frames);
-        let shown = scenes.get(worst).unwrap_or(&scene).clone();
-        Analysis { scene: shown, frames, notes, cases: Some(CaseScenes { given: scene, of_frames: scenes }) }
+        Analysis::of_conditions(scene, frames, scenes, notes)
+    }
+
+    /// Returns the analysis of the scene `given`. Each frame has the results that belong to its scene in `of_frames`.
+    pub(super) fn of_conditions(
+        given: Arc<Scene>,
+        frames: Vec<Arc<FrameAnalysis>>,
+        of_frames: Vec<Arc<Scene>>,
+        notes: Vec<Note>,
+    ) -> Analysis {
+        // Results of the whole scene, such as a list of inputs, show the condition of the worst frame.
+        let scene = of_frames.get(worst_of(&frames)).unwrap_or(&given).clone();
+        Analysis { scene, frames, notes, cases: Some(CaseScenes { given, of_frames }) }
     }
 
     /// Returns the scene with the loads and weights to which the results of a frame belong: those of its worst load
-    /// case, or the scene itself if it has no cases.
+    /// case, with the axles of the vehicle if the frame falls under it, or else the scene itself.
     pub fn scene_of(&self, frame: usize) -> &Arc<Scene> {
         self.cases.as_ref().and_then(|cases| cases.of_frames.get(frame)).unwrap_or(&self.scene)
     }
@@ -154,7 +176,7 @@ impl Analysis {
         (self.scene_of(frame), &self.frames[frame])
     }
 
-    /// Returns the scene as it was given to the analysis, with its load cases.
+    /// Returns the scene as its author wrote it, with its load cases.
     #[cfg(any(feature = "python", feature = "wasm"))]
     pub(crate) fn given(&self) -> &Arc<Scene> {
         self.cases.as_ref().map_or(&self.scene, |cases| &cases.given)

@@ -39,6 +39,7 @@ pub(super) fn unloaded_frame(context: &FrameContext, assembly: &Assembly, effect
         removable: None,
         reach: None,
         vehicle: None,
+        under_vehicle: None,
         capacity: None,
         only_by_wedging: None,
         exact: None,

@@ -31,6 +31,7 @@ mod reach;
 mod vehicle;
 mod sensitivity;
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
@@ -75,7 +76,7 @@ pub use removable::{Help, Removable};
 pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity, Slope};
 pub use thrust_states::{ThrustState, ThrustStates};
 pub use undecided::UndecidedReason;
-pub use vehicle::{Influence, VehiclePosition};
+pub use vehicle::{Influence, UnderVehicle, VehiclePosition};
 pub use warm_start::{Source, verdicts};
 pub(crate) use warm_start::{WarmStart, hinges_on_gaps};
 pub use wedged::{FaceCase, PointCase, RuledOut, Wedged};
@@ -135,15 +136,15 @@ impl fmt::Display for Verdict {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Analysis {
-    /// The analysed scene. If the scene has load cases, this is the scene in the worst case of its worst frame;
-    /// [`Analysis::scene_of`] returns it for each frame.
+    /// The analysed scene. If the scene has load cases, or falls under its vehicle, this is the scene with the weights and
+    /// the loads with which its worst frame is worst; [`Analysis::scene_of`] returns it for each frame.
     pub scene: Arc<Scene>,
     /// One entry per frame of the scene, in order. Frames in the same state share their results.
     pub frames: Vec<Arc<FrameAnalysis>>,
     /// Notes on things that are allowed but seldom intended: the notes of the scene, and notes on gaps that are
     /// nearly contacts.
     pub notes: Vec<Note>,
-    /// The scenes in their worst load cases; `None` if the scene has no cases.
+    /// The scenes in their worst load cases and under the vehicle; `None` if all results belong to the scene itself.
     pub(crate) cases: Option<CaseScenes>,
 }
 
@@ -199,8 +200,11 @@ pub struct FrameAnalysis {
     pub removable: Option<Vec<Removable>>,
     /// What reaches the target of [`Options::reach`], if it was requested.
     pub reach: Option<Reached>,
-    /// The load factor for each position of the vehicle of the scene, if the frame stands.
+    /// The load factor for each position of the vehicle of the scene, if the frame stands without it.
     pub vehicle: Option<Influence>,
+    /// Present if the frame stands alone, but not under the vehicle of the scene: all other results are then those with
+    /// the axles as loads.
+    pub under_vehicle: Option<UnderVehicle>,
     /// The forces that a block can carry, if requested and if the block is placed.
     pub capacity: Option<LoadCapacity>,
     /// Whether the frame stands only by a self-stress that its loads do not build up from rest. `None` if not
@@ -255,9 +259,17 @@ impl Analysis {
         movement::add_movements(&once, &interfaces, &mut frames, options);
         removable::add_removables(&once, &interfaces, &mut frames, options);
         reach::add_reach(&once, frames.iter_mut().enumerate(), options);
-        vehicle::add_influence(&once, &interfaces, &mut frames, options);
+        let governing = vehicle::judge((&once, &scene), &interfaces, &mut frames, options);
         let notes = gaps_closed::notes(&once, &interfaces);
-        Analysis { frames: repeat::with_repeats(frames, &source), scene, notes, cases: None }
+        let frames = repeat::with_repeats(frames, &source);
+        if governing.iter().all(Option::is_none) {
+            return Analysis { frames, scene, notes, cases: None };
+        }
+        let own = (0..source.len()).filter(|number| source[*number] == *number);
+        let scenes: BTreeMap<usize, Arc<Scene>> =
+            own.zip(governing).map(|(number, under)| (number, under.unwrap_or_else(|| scene.clone()))).collect();
+        let scenes = source.iter().map(|source| scenes[source].clone()).collect();
+        Analysis::of_conditions(scene, frames, scenes, notes)
     }
 
     /// Returns the analysis of one frame alone, whose scene has only this frame too. `number` is counted from 0. `None`

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::capacity::decided;
 use super::margin::{End, Interval, MarginKind, Setting, interval_of};
 use super::removable::{NotFound, least_hold};
-use super::{FrameAnalysis, Options, Verdict};
+use super::{FrameAnalysis, Options, Verdict, vehicle};
 use crate::geometry::{Point, Polygon, Vector};
 use crate::mechanics::proof::{Motion, net_power};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
@@ -105,6 +105,13 @@ pub(super) fn add_reach<'f>(
             found.reach = Some(Reached { target, verdict: Verdict::Undecided, changes: Vec::new() });
             continue;
         }
+        if scene.vehicle.is_some() {
+            found.notices.push(
+                "reach: the frame was examined without the vehicle and with it at its governing position; check the \
+                 changed scene at all positions"
+                    .to_owned(),
+            );
+        }
         let states = scene.alone(number).map(|alone| states(&alone, target)).unwrap_or_default();
         // The frame is also undecided if its verdict depends on gaps.
         let is_open = |verdict: Verdict| verdict == Verdict::Undecided;
@@ -156,6 +163,11 @@ fn states(scene: &Scene, target: Reach) -> Vec<State> {
         _ => Box::new(scene.in_cases().map(|(case, scene)| (Arc::new(scene), case.weights))),
     };
     let settings = &settings(target);
+    // With a vehicle, the change must also suffice at the governing position.
+    let bases = bases.flat_map(|(scene, weights)| {
+        let loaded = vehicle::at_governing_position(&scene, 0, &Interfaces::new(&scene));
+        [Some((scene, weights)), loaded.map(|loaded| (Arc::new(loaded), weights))].into_iter().flatten()
+    });
     let each = bases.flat_map(|(scene, weights)| settings.iter().map(move |own| (scene.clone(), weights, *own)));
     each.take_while(|_| !is_late()).map(|(scene, weights, setting)| State::new(scene, weights, setting)).collect()
 }

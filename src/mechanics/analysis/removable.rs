@@ -101,7 +101,8 @@ fn of_block(
     (block, whole): (BlockId, &Frame),
     verdict: Verdict,
 ) -> (Removable, bool) {
-    let (scene, rest) = (&rests.scene, &rests.frames[number]);
+    // If the rest falls under a vehicle, this scene has the axles at the governing position.
+    let (scene, rest) = (rests.scene_of(number), &rests.frames[number]);
     let assembly = |frame: &Frame| effect::assembly_of(scene, frame, interfaces);
     let hold = whole.holds.iter().find(|hold| hold.block == block);
     let force = match (verdict, hold) {

@@ -11,6 +11,11 @@ use crate::mechanics::proof::Proof;
 pub enum UndecidedReason {
     /// [`Options::deadline`](super::Options::deadline) passed before the frame was decided.
     Late,
+    /// The vehicle of the scene has more positions than are decided.
+    TooManyPositions {
+        /// The largest number of positions.
+        most: usize,
+    },
     /// For some blocks of the frame, neither forces nor a motion are proved.
     Unproved {
         /// The errors of the best forces that were found.
@@ -44,6 +49,11 @@ impl fmt::Display for UndecidedReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             UndecidedReason::Late => f.write_str("the time limit was reached before it was decided"),
+            UndecidedReason::TooManyPositions { most } => write!(
+                f,
+                "the vehicle has more than {most} positions; give it fewer axles, or name the blocks that it passes \
+                 in its key `over`"
+            ),
             UndecidedReason::Unproved { forces, motion } => {
                 if let Proof::Forces { worst_imbalance, .. } = forces {
                     write!(
@@ -68,6 +78,12 @@ impl fmt::Display for UndecidedReason {
 }
 
 impl FrameAnalysis {
+    /// Makes the frame undecided for this reason, beside its other reasons.
+    pub(super) fn doubt_because(&mut self, reason: UndecidedReason) {
+        self.verdict = Verdict::Undecided;
+        self.doubts.push(reason);
+    }
+
     /// Returns why the frame is undecided, in words, with the errors of the forces and motions that were found. Empty
     /// if the frame is decided.
     pub fn doubt(&self) -> String {

@@ -2,18 +2,24 @@
 //!
 //! The axles are loads along gravity on the tops of the blocks. While every axle stays on the same edge, the loads are linear
 //! in the position x. The loads that the frame carries form a convex set, so 1/λ(x) is convex there, and the least factor λ
-//! belongs to a position with an axle at an end of an edge. If the scene gives no step, only these positions are analysed.
-//! No position between them has a smaller factor.
+//! belongs to a position with an axle at an end of an edge. These positions are analysed, and with a step of the scene
+//! others between them, for the curve. No other position has a smaller factor.
 //!
 //! All positions share the interfaces, the components and the forces of the unloaded frame. Each position needs one
 //! linear program; its forces and its mechanism prove the factor like that of a margin.
+//!
+//! The vehicle belongs to the verdict ([`judge`]): a frame that stands alone and falls under its vehicle falls, and its
+//! results are those with the axles as loads at the governing position. That position is analysed like any scene, so its
+//! verdict has its own proof.
+
+use std::sync::Arc;
 
 use super::decide::decided_forces;
 use super::margin::{END_TOL, End, largest_load_factor};
-use super::{FrameAnalysis, Motion, Options, Verdict};
+use super::{Analysis, FrameAnalysis, Motion, Options, UndecidedReason, Verdict};
 use crate::geometry::{Edge, Point, Vector, quarter_turn};
 use crate::mechanics::proof::Forces;
-use crate::mechanics::scene::{BlockId, Frame, Scene, Vehicle};
+use crate::mechanics::scene::{BlockId, Frame, Load, Scene, Vehicle};
 use crate::mechanics::solve::{DeadlineGuard, is_late};
 use crate::mechanics::statics::assembly::{Assembly, load_about};
 use crate::mechanics::statics::effect;
@@ -21,6 +27,8 @@ use crate::mechanics::statics::interface::Interfaces;
 
 /// More positions than this are not analysed.
 const MAX_POSITIONS: usize = 5000;
+/// More positions than this in one direction are not added for a `step`.
+const MAX_BETWEEN: f64 = 1000.0;
 /// Two ends of edges this close to each other, relative to the length of the track, are one point.
 const SAME_PLACE: f64 = 1e-9;
 
@@ -51,29 +59,168 @@ pub struct VehiclePosition {
     pub factor: Option<f64>,
 }
 
-/// Computes the influence line of the vehicle for each frame that stands, unless `options` request only the verdict.
-pub(super) fn add_influence(scene: &Scene, interfaces: &Interfaces, frames: &mut [FrameAnalysis], options: &Options) {
-    let Some(vehicle) = scene.vehicle.as_ref().filter(|_| !options.verdict_only) else { return };
-    let _until = DeadlineGuard::new(options.deadline);
-    for (frame, found) in scene.frames.iter().zip(frames) {
-        let stands = found.verdict == Verdict::Stable;
-        found.vehicle = if stands { influence(scene, frame, interfaces, vehicle) } else { None };
-        if stands && options.is_late() {
-            found.notices.push("vehicle: the time limit was reached".to_owned());
+impl Influence {
+    /// Keeps at each position the smaller of two factors: those of two load cases, which have the same positions.
+    pub(super) fn keep_least(&mut self, other: &Influence) {
+        let least = |own: &Influence| own.governing.and_then(|number| own.positions[number].factor);
+        if least(other).is_some_and(|factor| least(self).is_none_or(|own| factor < own)) {
+            (self.governing, self.mechanism) = (other.governing, other.mechanism.clone());
         }
-        let positions = found.vehicle.as_ref().map(|influence| influence.positions.len());
-        found.effects.push(effect::report::vehicle(stands, positions));
+        for (own, other) in self.positions.iter_mut().zip(&other.positions) {
+            own.factor = own.factor.into_iter().chain(other.factor).reduce(f64::min);
+        }
     }
 }
 
-/// Returns the influence line of a frame. `None` if it does not stand without its loads, if no position is on the track,
-/// if there are too many positions, or after the deadline.
-fn influence(scene: &Scene, frame: &Frame, interfaces: &Interfaces, vehicle: &Vehicle) -> Option<Influence> {
+/// The vehicle at the position to which the results of a frame belong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct UnderVehicle {
+    /// The index of the position in [`Influence::positions`], if the frame has an influence line.
+    pub position: Option<usize>,
+    /// The verdict on the frame without the vehicle.
+    pub alone: Verdict,
+}
+
+/// Lets the vehicle of a scene take part in the verdict on each frame that stands without it, and adds the influence
+/// lines unless `options` request only the verdict. `whole` has all frames that `frames` has, and maybe repeats of them.
+///
+/// Returns for each frame the scene with the axles as loads, if its results belong to a position of the vehicle.
+pub(super) fn judge(
+    (scene, whole): (&Scene, &Scene),
+    interfaces: &Interfaces,
+    frames: &mut [FrameAnalysis],
+    options: &Options,
+) -> Vec<Option<Arc<Scene>>> {
+    let mut governing = vec![None; frames.len()];
+    let Some(vehicle) = &scene.vehicle else { return governing };
+    let _until = DeadlineGuard::new(options.deadline);
+    for (number, (frame, found)) in scene.frames.iter().zip(frames).enumerate() {
+        if found.verdict != Verdict::Stable {
+            found.effects.push(effect::report::vehicle(false, None));
+            continue;
+        }
+        let track = track(scene, frame, vehicle);
+        let Some(positions) = positions(scene, vehicle, &track) else {
+            if track.is_empty() {
+                found.notices.push("vehicle: no axle stands on the structure at any position".to_owned());
+            } else {
+                found.doubt_because(UndecidedReason::TooManyPositions { most: MAX_POSITIONS });
+            }
+            found.effects.push(effect::report::vehicle(true, None));
+            continue;
+        };
+        let count = positions.len();
+        let influence = influence(scene, frame, interfaces, vehicle, positions.clone());
+        // The factor of a position proves that the frame stands there if it is 1 at least. A frame that stands only with its
+        // listed loads has no factors, so each position is decided.
+        let factor = |own: &usize| influence.as_ref().map_or(Some(0.0), |line| line.positions[*own].factor);
+        let below = |own: &usize| factor(own).is_some_and(|factor| factor < 1.0);
+        let mut open: Vec<usize> = (0..count).filter(below).collect();
+        // The governing position comes first also if others have the same factor but for rounding.
+        let governs = |own: &usize| influence.as_ref().is_some_and(|line| line.governing == Some(*own));
+        let order = |own: &usize| if governs(own) { 0.0 } else { factor(own).unwrap_or_default() };
+        open.sort_by(|a, b| order(a).total_cmp(&order(b)));
+        let mut worst: Option<(Verdict, usize, Arc<Scene>, Scene)> = None;
+        for own in open {
+            if options.is_late() {
+                found.doubt_because(UndecidedReason::Late);
+                break;
+            }
+            let loaded = Arc::new(with_axle_loads(whole, vehicle, &positions[own]));
+            let alone = Scene { vehicle: None, frames: vec![frame.clone()], ..Scene::clone(&loaded) };
+            let verdict = Analysis::with(alone.clone(), &options.only_verdict()).verdict();
+            if verdict > worst.as_ref().map_or(Verdict::Stable, |(worst, ..)| *worst) {
+                worst = Some((verdict, own, loaded, alone));
+            }
+            if verdict == Verdict::Unstable {
+                break;
+            }
+        }
+        if let Some((_, own, loaded, alone)) = worst {
+            let under = UnderVehicle { position: influence.is_some().then_some(own), alone: found.verdict };
+            let mut results = Analysis::with(alone, options).frames;
+            if let Some(results) = results.pop() {
+                *found = FrameAnalysis { under_vehicle: Some(under), ..Arc::unwrap_or_clone(results) };
+                governing[number] = Some(loaded);
+            }
+        }
+        if found.under_vehicle.is_none() {
+            let answers = [
+                ("margins", found.margins.is_some()),
+                ("sensitivity", found.sensitivity.is_some()),
+                ("placement", found.placement.is_some()),
+                ("capacity", found.capacity.is_some()),
+                ("movements", !found.movements.is_empty()),
+                ("forces of removable blocks", found.removable.is_some()),
+            ];
+            let bare = answers.into_iter().filter(|(_, is_there)| *is_there).map(|(word, _)| word);
+            let bare = bare.collect::<Vec<_>>().join(", ");
+            if !bare.is_empty() {
+                found.notices.push(format!("{bare}: computed without the vehicle, whose factor is given on its own"));
+            }
+        }
+        found.effects.retain(|report| report.effect != effect::EffectName::Vehicle);
+        found.effects.push(effect::report::vehicle(true, Some(count)));
+        found.vehicle = influence.filter(|_| !options.verdict_only);
+    }
+    governing
+}
+
+/// Returns a scene with the axles of its vehicle as loads at the governing position of one of its frames. `None` if it has
+/// no vehicle, or if the vehicle has no least factor there.
+pub(super) fn at_governing_position(scene: &Scene, number: usize, interfaces: &Interfaces) -> Option<Scene> {
+    let (vehicle, frame) = (scene.vehicle.as_ref()?, scene.frames.get(number)?);
+    let positions = positions(scene, vehicle, &track(scene, frame, vehicle))?;
+    let influence = influence(scene, frame, interfaces, vehicle, positions)?;
+    Some(with_axle_loads(scene, vehicle, &influence.positions[influence.governing?]))
+}
+
+impl Analysis {
+    /// Returns the analysis with scenes without the axles, which a figure of the vehicle draws itself.
+    pub(crate) fn without_axles(&self) -> Analysis {
+        let mut bare = self.clone();
+        let Some(conditions) = &mut bare.cases else { return bare };
+        for (number, found) in self.frames.iter().enumerate() {
+            let Some(line) = found.vehicle.as_ref().filter(|_| found.under_vehicle.is_some()) else { continue };
+            let axles = found.under_vehicle.and_then(|under| Some(line.positions.get(under.position?)?.axles.len()));
+            let loaded = conditions.scene_mut(number);
+            let count = loaded.loads.len() - axles.unwrap_or(0).min(loaded.loads.len());
+            loaded.loads.truncate(count);
+        }
+        bare
+    }
+}
+
+/// Returns a scene with the axles of a vehicle at a position as further loads.
+fn with_axle_loads(scene: &Scene, vehicle: &Vehicle, position: &VehiclePosition) -> Scene {
+    let first = scene.loads.iter().map(|load| load.entry + 1).max().unwrap_or(0);
+    let mut loads = scene.loads.clone();
+    loads.extend(position.axles.iter().enumerate().map(|(number, (axle, block, at))| Load {
+        block: *block,
+        force: scene.down() * vehicle.axles[*axle].weight,
+        at: *at,
+        torque: 0.0,
+        is_fixed: false,
+        entry: first + number,
+        spread: None,
+        at_centroid: false,
+    }));
+    Scene { loads, ..scene.clone() }
+}
+
+/// Returns the influence line of a frame for these positions. `None` if the frame does not stand without its loads, or
+/// after the deadline.
+fn influence(
+    scene: &Scene,
+    frame: &Frame,
+    interfaces: &Interfaces,
+    vehicle: &Vehicle,
+    mut positions: Vec<VehiclePosition>,
+) -> Option<Influence> {
     let components = effect::assembly_of(scene, frame, interfaces).components();
     let unloaded = components.iter().map(|own| Some(decided_forces(&own.clone().with_load_factor(0.0))?.0));
     let unloaded: Vec<Forces> = unloaded.collect::<Option<_>>()?;
-    let track = track(scene, frame, vehicle);
-    let mut positions = positions(scene, vehicle, &track)?;
     // Without an axle, a component has the same factor at every position.
     let pairs = || components.iter().zip(&unloaded);
     let present: Vec<End> = pairs().map(|(own, forces)| largest_load_factor(own, forces)).collect();
@@ -172,7 +319,7 @@ impl Top {
 fn positions(scene: &Scene, vehicle: &Vehicle, track: &[Top]) -> Option<Vec<VehiclePosition>> {
     let (first, last) = (track.first()?.from, track.last()?.to);
     // Most axles have a position of their own at each end of an edge.
-    if vehicle.step == 0.0 && vehicle.axles.len() * track.len() > 100 * MAX_POSITIONS {
+    if vehicle.axles.len() * track.len() > 100 * MAX_POSITIONS {
         return None;
     }
     let across = quarter_turn(scene.down());
@@ -184,15 +331,16 @@ fn positions(scene: &Scene, vehicle: &Vehicle, track: &[Top]) -> Option<Vec<Vehi
         }
         let offsets = vehicle.axles.iter().map(|axle| behind * axle.offset);
         // Each place with the side on which an axle at an end of an edge stands: -1 to the left, 1 to the right.
-        let mut places: Vec<(f64, f64)> = if vehicle.step > 0.0 {
-            let [least, most] = [f64::min, f64::max].map(|of| offsets.clone().fold(0.0, of));
-            let count = ((last + most - first - least) / vehicle.step) as usize;
-            (0..=count.min(MAX_POSITIONS)).map(|k| (first + least + k as f64 * vehicle.step, 1.0)).collect()
-        } else {
-            let ends = track.iter().flat_map(|top| [(top.from, 1.0), (top.to, -1.0)]);
-            let ends: Vec<(f64, f64)> = ends.collect();
-            offsets.flat_map(|offset| ends.iter().map(move |(end, side)| (end + offset, *side))).collect()
-        };
+        let ends = track.iter().flat_map(|top| [(top.from, 1.0), (top.to, -1.0)]);
+        let ends: Vec<(f64, f64)> = ends.collect();
+        let at_ends = |offset: f64| ends.iter().map(move |(end, side)| (end + offset, *side));
+        let mut places: Vec<(f64, f64)> = offsets.clone().flat_map(at_ends).collect();
+        let [least, most] = [f64::min, f64::max].map(|of| offsets.clone().fold(0.0, of));
+        let count = (last + most - first - least) / vehicle.step;
+        // Positions between the ends only make the line smoother, so too many of them are left out.
+        if vehicle.step > 0.0 && count <= MAX_BETWEEN {
+            places.extend((0..=count as usize).map(|k| (first + least + k as f64 * vehicle.step, 1.0)));
+        }
         places.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         places.dedup();
         if !to_right {

@@ -39,7 +39,7 @@ const MAX_SCALE_RATIO: f64 = 100.0;
 pub fn verdicts(scene: &Scene, options: &Options) -> Vec<Verdict> {
     let options = &options.verdict_only(true);
     let found = Interfaces::new(scene);
-    if hinges_on_gaps(scene, &found) || !scene.cases.is_empty() {
+    if hinges_on_gaps(scene, &found) || scene.has_conditions() {
         let frames = Analysis::with(scene, &options.only_verdict()).frames;
         return frames.iter().map(|frame| frame.verdict).collect();
     }

@@ -130,6 +130,11 @@ impl Scene {
         Some(Scene { frames, ..self.clone() })
     }
 
+    /// True if a verdict must hold in several conditions: load cases, or positions of a vehicle.
+    pub(crate) fn has_conditions(&self) -> bool {
+        !self.cases.is_empty() || self.vehicle.is_some()
+    }
+
     /// Returns the title of the scene; empty if the file gives no title.
     pub fn title(&self) -> &str {
         &self.title

@@ -282,7 +282,7 @@ impl Session {
 
     /// Computes and stores the verdict on the placed blocks.
     fn update_verdict(&mut self) -> Verdict {
-        let is_examined = hinges_on_gaps(&self.scene, &self.found) || !self.scene.cases.is_empty();
+        let is_examined = hinges_on_gaps(&self.scene, &self.found) || self.scene.has_conditions();
         (self.verdict, self.source) = if is_examined {
             let frames = Analysis::with(&self.scene, &self.options.only_verdict()).frames;
             let verdict = frames.first().map_or(Verdict::Stable, |f| f.verdict);

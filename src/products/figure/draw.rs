@@ -67,7 +67,7 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
 pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) -> Vec<(Drawing, f64)> {
     let options = kind.options(&analysis.scene, options);
     if kind == Kind::Influence {
-        return influence::film(analysis, &options, seconds);
+        return influence::film(&shown(analysis, kind), &options, seconds);
     }
     if !kind.about().needs_elementary_mechanisms {
         let pages = frame_pages(analysis, kind, &options, &all_frames(analysis)).into_iter();
@@ -129,9 +129,12 @@ fn all_frames(analysis: &Analysis) -> Vec<usize> {
     (0..analysis.frames.len()).collect()
 }
 
-/// Returns the analysis that a kind of figure shows: with elementary mechanisms if the kind needs them, otherwise
-/// unchanged.
+/// Returns the analysis that a kind of figure shows: with elementary mechanisms if the kind needs them, without the axles
+/// of a vehicle if the kind draws them, otherwise unchanged.
 fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
+    if kind == Kind::Influence && analysis.frames.iter().any(|found| found.under_vehicle.is_some()) {
+        return Cow::Owned(analysis.without_axles());
+    }
     if kind.about().needs_elementary_mechanisms { Cow::Owned(analysis.elementary()) } else { Cow::Borrowed(analysis) }
 }
 

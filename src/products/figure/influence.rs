@@ -50,10 +50,10 @@ impl Figure for InfluenceLine {
                 let Some(own) = shown(influence, options.motion_progress) else {
                     return vec![vehicle_factor(influence)];
                 };
-                let falls = own.factor.is_some_and(|factor| factor < 1.0);
-                let only = if falls { "only without the vehicle: it " } else { "" };
-                let times = own.factor.map_or("any multiple of".to_owned(), |factor| three_down(factor) + " times");
-                vec![format!("{only}carries {times} the vehicle, {}", vehicle_position(scene, own))]
+                let times = own.factor.map_or("any multiple of".to_owned(), |factor| three_down(factor) + " ×");
+                let words = format!("carries {times} the vehicle, {}", vehicle_position(scene, own));
+                let alone = found.under_vehicle.map(|under| format!("{} without the vehicle", under.alone.verb()));
+                [words].into_iter().chain(alone).collect()
             }
             (None, Verdict::Stable) => vec!["no position of a vehicle was analysed".into()],
             (None, Verdict::Unstable) => vec!["it falls without the vehicle".into()],

@@ -57,6 +57,8 @@ pub(super) fn frame<'a>(
         removable: frame.removable.as_ref().map(|rows| removable(scene, rows)),
         reach: frame.reach.as_ref().map(|found| reach(scene, found)),
         vehicle: frame.vehicle.as_ref().map(|influence| vehicle(scene, influence)),
+        verdict_without_vehicle: frame.under_vehicle.map(|under| under.alone.word()),
+        governing_position: frame.under_vehicle.and_then(|under| under.position),
         capacity: frame.capacity.as_ref().map(|found| capacity(scene, found)),
         only_by_wedging: is_simulated(EffectName::Wedging).then(|| Json::or_null(frame.only_by_wedging)),
         wedging: frame.wedged.as_ref().map(|wedged| wedging(scene, frame, wedged)),

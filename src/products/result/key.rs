@@ -445,7 +445,7 @@ pub static KEYS: &[Key] = &[
                 key("mechanism", Motions, "motion that no amount stops").when("if no amount does, and one motion proves it"),
             ]),
         ]),
-        key("vehicle", Object, "influence line of the vehicle: the largest load factor for each of its positions").when("if the scene has a `vehicle` and the frame stands").of(&[
+        key("vehicle", Object, "influence line of the vehicle: the largest load factor for each of its positions").when("if the scene has a `vehicle` and the frame stands without it").of(&[
             key("governing", Count, "index in `positions`, from 0, of the position with the least factor").when("if some factor is limited"),
             key("mechanism", Motions, "motion just beyond this factor"),
             key("positions", Objects, "positions that were analysed, in the order of travel").of(&[
@@ -459,6 +459,8 @@ pub static KEYS: &[Key] = &[
                 ]),
             ]),
         ]),
+        key("verdict_without_vehicle", Word(&["stable"]), "verdict on the frame without its vehicle; all other results are those with the axles as loads").when("if the frame stands only without its vehicle"),
+        key("governing_position", Count, "index in `vehicle.positions`, from 0, of the position of the vehicle to which the results belong").when("if the frame stands only without its vehicle, and has an influence line"),
         key("only_by_wedging", FlagOrOpen, "whether the frame stands only because blocks press on each other although no load presses them together; null if undecided, with the reason in `effects`").when("with `--wedging`, if the frame stands"),
         key("wedging", Object, "proof that the frame stands only by wedging").when("with `--wedging`, if `only_by_wedging` is `true`").of(&[
             key("must_press", Objects, "interfaces that open or slide if the springs give way; in every balance, their normal forces sum to at least `normal_force_at_least`, if a bound was found").of(&[

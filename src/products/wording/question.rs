@@ -269,17 +269,35 @@ pub fn vehicle_position(scene: &Scene, position: &VehiclePosition) -> String {
     format!("first axle at x = {}{toward}, on {}", amount(position.at, scene.units().length()), listed(&blocks))
 }
 
-/// States the least factor in a few words: `carries 2.31 times the vehicle`.
+/// States the least factor in a few words: `carries 2.31 × the vehicle`.
 pub fn vehicle_factor(influence: &Influence) -> String {
     match influence.governing.and_then(|number| influence.positions[number].factor) {
         None => "carries any multiple of the vehicle".to_owned(),
         Some(factor) if factor < 1.0 => {
-            format!(
-                "falls under the vehicle, and stands only without it: it carries {} times its weight",
-                three_down(factor)
-            )
+            format!("falls under the vehicle: it carries {} × its weight, and stands without it", three_down(factor))
         }
-        Some(factor) => format!("carries {} times the vehicle", three_down(factor)),
+        Some(factor) => format!("carries {} × the vehicle", three_down(factor)),
+    }
+}
+
+/// States in a few words what a frame does under its vehicle, for the line of the verdict: `carries 2.31 × the vehicle`.
+/// `None` if the scene has no vehicle, if no position limits it, or if the frame falls without it.
+pub fn vehicle_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
+    let influence = found.vehicle.as_ref();
+    let factor = influence.and_then(|own| own.positions[own.governing?].factor);
+    // The factor multiplies the loads too.
+    let is_loaded = scene.loads().iter().any(|load| !load.is_fixed && load.force.norm() > 0.0);
+    match found.under_vehicle {
+        Some(under) => {
+            let alone = format!("{} without it", under.alone.verb());
+            let carries = factor.map(|factor| format!("carries {} × its weight, ", three_down(factor)));
+            Some(format!("under its vehicle: {}{alone}", carries.unwrap_or_default()))
+        }
+        None if found.verdict == Verdict::Stable => {
+            let what = if is_loaded { "the vehicle and its loads" } else { "the vehicle" };
+            factor.map(|factor| format!("carries {} × {what}", three_down(factor)))
+        }
+        None => None,
     }
 }
 

@@ -188,9 +188,9 @@ entry! {
         axles: required Vec<AxleEntry> [length(min = 1)],
         /// Names of the blocks that the vehicle travels over. Default: all placed blocks that are seen from above.
         over: Vec<String>,
-        /// Distance between the positions that are analysed, in the length unit of the scene, at least 0. With 0,
-        /// every position with an axle at an end of the top of a block: one of these is the most dangerous position.
-        /// Default 0.
+        /// Distance between further positions that are analysed for a smoother influence line, in the length unit of the
+        /// scene, at least 0; more than 1 000 in one direction are left out. Every position with an axle at an end of the
+        /// top of a block is analysed: one of these is the most dangerous position.
         step: Option<f64> [range(min = 0.0), extend("default" = 0.0)],
         /// Whether the vehicle also travels to the left. Default true.
         both_ways: Option<bool> [extend("default" = true)],

@@ -39,6 +39,19 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
         },
         Verdict::Stable => reserves(scene, found, if loads == 1 { "load" } else { "loads" }),
     };
+    if let Some(words) = question::vehicle_headline(scene, found) {
+        // What the vehicle does is what the scene asks. The other margins of a frame that stands do not contain it.
+        governing.words = vec![words];
+        if let Some(influence) = found.vehicle.as_ref().filter(|_| found.verdict == Verdict::Stable) {
+            governing = Governing {
+                parameter: Some(Parameter::LoadFactor),
+                at: "this load",
+                mechanism: &influence.mechanism,
+                friction: None,
+                ..governing
+            };
+        }
+    }
     governing.words.extend(question::worst_case(found));
     governing
 }
