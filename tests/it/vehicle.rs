@@ -1,9 +1,9 @@
 //! A vehicle that travels over a structure, against single checks of the same loads.
 
-use drystone::analysis::{Influence, MarginKind, MarginKinds, Options, Verdict, verdicts};
+use drystone::analysis::{Influence, MarginKind, MarginKinds, Options, UndecidedReason, Verdict, verdicts};
 use drystone::result::{Layout, Timing, to_json};
 use drystone::session::Session;
-use drystone::{Analysis, Scene};
+use drystone::{Analysis, Scene, figure, output};
 use serde_json::{Value, json};
 
 use crate::random::Random;
@@ -178,14 +178,14 @@ fn a_structure_that_falls_under_its_vehicle_falls() {
 
 #[test]
 fn a_structure_that_needs_its_loads_is_decided_with_them_at_each_position() {
-    // The beam, moved to x = -2 … 1, tips about x = 0 without the load on its right end: 6 · 0.5 against 4 · 0.5.
+    // The beam lies from x = -2 to 1 and weighs 6. Without the load near its right end, it tips about x = 0.
     let with = |axle: f64| {
         let mut file = beam(json!({ "axles": [{ "weight": axle }], "over": ["beam"] }));
         file["blocks"][1]["polygon"] = json!([[-2, 1], [1, 1], [1, 1.5], [-2, 1.5]]);
         file["loads"] = json!([{ "block": "beam", "at": [0.75, 1.5], "force": [0, -4.5] }]);
         Analysis::new(scene(&file))
     };
-    // 6 · 0.5 = 3 < 4.5 · 0.75 = 3.375: an axle at x = -2 may weigh 0.1875.
+    // The load has the moment 4.5 · 0.75 = 3.375, the weight 6 · 0.5 = 3. So an axle at x = -2 may weigh 0.375 / 2 = 0.1875.
     assert_eq!(with(0.18).verdict(), Verdict::Stable);
     let falls = with(0.2);
     assert_eq!(falls.verdict(), Verdict::Unstable);
@@ -193,8 +193,29 @@ fn a_structure_that_needs_its_loads_is_decided_with_them_at_each_position() {
 }
 
 #[test]
+fn too_many_positions_leave_the_frame_undecided() {
+    let axles: Vec<Value> = (0..3000).map(|k| json!({ "weight": 1e-6, "offset": 1e-3 * f64::from(k) })).collect();
+    let frame = Analysis::new(scene(&beam(json!({ "axles": axles, "over": ["beam"] })))).frames.remove(0);
+    assert_eq!(frame.verdict, Verdict::Undecided);
+    assert_eq!(frame.doubt(), UndecidedReason::TooManyPositions { most: 5000 }.to_string());
+    assert!(frame.doubt().contains("more than 5000 positions"), "{}", frame.doubt());
+}
+
+#[test]
+fn the_headline_says_that_the_factor_multiplies_the_loads_too() {
+    let words = |torque: f64, is_fixed: bool| {
+        let mut file = at_left_end(1.0);
+        file["loads"] = json!([{ "block": "beam", "torque": torque, "fixed": is_fixed }]);
+        let analysis = Analysis::new(scene(&file));
+        output::svg::write(&figure::draw(&analysis, figure::Kind::Forces, &figure::Options::default()))
+    };
+    assert!(words(0.1, false).contains("× the vehicle and its loads"), "{}", words(0.1, false));
+    assert!(!words(0.1, true).contains("and its loads"), "{}", words(0.1, true));
+}
+
+#[test]
 fn the_least_factor_of_two_load_cases_is_the_same_whatever_else_is_computed() {
-    // The case `light` leaves half of the counterweight: 6 · 0.5 · 0.5 = λ 2 · 1.
+    // In the case `light`, the beam weighs 3. It tips about x = 0 if its moment 3 · 0.5 is that of the axle, λ · 1 · 1.
     let mut file = at_left_end(1.0);
     file["cases"] = json!([{ "id": "full" }, { "id": "light", "weights": 0.5 }]);
     let least = |options: &Options| {

@@ -128,7 +128,7 @@ impl Analysis {
                     range.normal = wider(range.normal, own.normal);
                     range.friction = wider(range.friction, own.friction);
                 }
-                // The influence line of a frame has the least factors of all cases.
+                // At each position, the influence line has the least factor of all cases.
                 lines[number] = lines[number].take().zip(frame.vehicle.as_ref()).map(|(mut line, own)| {
                     line.keep_least(own);
                     line
@@ -153,7 +153,8 @@ impl Analysis {
         Analysis::of_conditions(scene, frames, scenes, notes)
     }
 
-    /// Returns the analysis of the scene `given`. Each frame has the results that belong to its scene in `of_frames`.
+    /// Returns an analysis from its parts: the scene as it was `given`, the results of its frames, and for each frame the
+    /// scene with the weights and loads to which these results belong.
     pub(super) fn of_conditions(
         given: Arc<Scene>,
         frames: Vec<Arc<FrameAnalysis>>,
@@ -165,8 +166,8 @@ impl Analysis {
         Analysis { scene, frames, notes, cases: Some(CaseScenes { given, of_frames }) }
     }
 
-    /// Returns the scene with the loads and weights to which the results of a frame belong: those of its worst load
-    /// case, with the axles of the vehicle if the frame falls under it, or else the scene itself.
+    /// Returns the scene with the weights and loads to which the results of a frame belong. With load cases, these are those
+    /// of its worst case. If the frame falls under the vehicle, the loads contain the axles.
     pub fn scene_of(&self, frame: usize) -> &Arc<Scene> {
         self.cases.as_ref().and_then(|cases| cases.of_frames.get(frame)).unwrap_or(&self.scene)
     }

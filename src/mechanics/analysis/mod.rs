@@ -136,8 +136,8 @@ impl fmt::Display for Verdict {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Analysis {
-    /// The analysed scene. If the scene has load cases, or falls under its vehicle, this is the scene with the weights and
-    /// the loads with which its worst frame is worst; [`Analysis::scene_of`] returns it for each frame.
+    /// The analysed scene. With load cases, it has the weights and loads of the worst case of its worst frame. If that frame
+    /// falls under the vehicle, its loads contain the axles. [`Analysis::scene_of`] returns the scene of each frame.
     pub scene: Arc<Scene>,
     /// One entry per frame of the scene, in order. Frames in the same state share their results.
     pub frames: Vec<Arc<FrameAnalysis>>,
@@ -259,7 +259,7 @@ impl Analysis {
         movement::add_movements(&once, &interfaces, &mut frames, options);
         removable::add_removables(&once, &interfaces, &mut frames, options);
         reach::add_reach(&once, frames.iter_mut().enumerate(), options);
-        let governing = vehicle::judge((&once, &scene), &interfaces, &mut frames, options);
+        let governing = vehicle::decide_under_vehicle((&once, &scene), &interfaces, &mut frames, options);
         let notes = gaps_closed::notes(&once, &interfaces);
         let frames = repeat::with_repeats(frames, &source);
         if governing.iter().all(Option::is_none) {

@@ -79,7 +79,7 @@ impl fmt::Display for UndecidedReason {
 
 impl FrameAnalysis {
     /// Makes the frame undecided for this reason, beside its other reasons.
-    pub(super) fn doubt_because(&mut self, reason: UndecidedReason) {
+    pub(super) fn leave_undecided(&mut self, reason: UndecidedReason) {
         self.verdict = Verdict::Undecided;
         self.doubts.push(reason);
     }

@@ -8,7 +8,7 @@
 //! All positions share the interfaces, the components and the forces of the unloaded frame. Each position needs one
 //! linear program; its forces and its mechanism prove the factor like that of a margin.
 //!
-//! The vehicle belongs to the verdict ([`judge`]): a frame that stands alone and falls under its vehicle falls, and its
+//! The vehicle belongs to the verdict ([`decide_under_vehicle`]): a frame that stands alone and falls under its vehicle falls, and its
 //! results are those with the axles as loads at the governing position. That position is analysed like any scene, so its
 //! verdict has its own proof.
 
@@ -28,7 +28,7 @@ use crate::mechanics::statics::interface::Interfaces;
 /// More positions than this are not analysed.
 const MAX_POSITIONS: usize = 5000;
 /// More positions than this in one direction are not added for a `step`.
-const MAX_BETWEEN: f64 = 1000.0;
+const MAX_STEPS: f64 = 1000.0;
 /// Two ends of edges this close to each other, relative to the length of the track, are one point.
 const SAME_PLACE: f64 = 1e-9;
 
@@ -82,11 +82,13 @@ pub struct UnderVehicle {
     pub alone: Verdict,
 }
 
-/// Lets the vehicle of a scene take part in the verdict on each frame that stands without it, and adds the influence
-/// lines unless `options` request only the verdict. `whole` has all frames that `frames` has, and maybe repeats of them.
+/// Decides each frame that stands without the vehicle again, with the vehicle at its positions. Also adds the influence
+/// lines, unless `options` request only the verdict. `whole` is the scene with all its frames. `scene` lacks the frames that
+/// repeat the state of an earlier frame, and `frames` are its results.
 ///
-/// Returns for each frame the scene with the axles as loads, if its results belong to a position of the vehicle.
-pub(super) fn judge(
+/// Returns one entry for each frame. It is the scene with the axles as loads if the results of the frame belong to a position
+/// of the vehicle, otherwise `None`.
+pub(super) fn decide_under_vehicle(
     (scene, whole): (&Scene, &Scene),
     interfaces: &Interfaces,
     frames: &mut [FrameAnalysis],
@@ -105,7 +107,7 @@ pub(super) fn judge(
             if track.is_empty() {
                 found.notices.push("vehicle: no axle stands on the structure at any position".to_owned());
             } else {
-                found.doubt_because(UndecidedReason::TooManyPositions { most: MAX_POSITIONS });
+                found.leave_undecided(UndecidedReason::TooManyPositions { most: MAX_POSITIONS });
             }
             found.effects.push(effect::report::vehicle(true, None));
             continue;
@@ -124,7 +126,7 @@ pub(super) fn judge(
         let mut worst: Option<(Verdict, usize, Arc<Scene>, Scene)> = None;
         for own in open {
             if options.is_late() {
-                found.doubt_because(UndecidedReason::Late);
+                found.leave_undecided(UndecidedReason::Late);
                 break;
             }
             let loaded = Arc::new(with_axle_loads(whole, vehicle, &positions[own]));
@@ -192,7 +194,7 @@ impl Analysis {
     }
 }
 
-/// Returns a scene with the axles of a vehicle at a position as further loads.
+/// Returns a scene whose loads also contain the axles of a vehicle at a position.
 fn with_axle_loads(scene: &Scene, vehicle: &Vehicle, position: &VehiclePosition) -> Scene {
     let first = scene.loads.iter().map(|load| load.entry + 1).max().unwrap_or(0);
     let mut loads = scene.loads.clone();
@@ -338,7 +340,7 @@ fn positions(scene: &Scene, vehicle: &Vehicle, track: &[Top]) -> Option<Vec<Vehi
         let [least, most] = [f64::min, f64::max].map(|of| offsets.clone().fold(0.0, of));
         let count = (last + most - first - least) / vehicle.step;
         // Positions between the ends only make the line smoother, so too many of them are left out.
-        if vehicle.step > 0.0 && count <= MAX_BETWEEN {
+        if vehicle.step > 0.0 && count <= MAX_STEPS {
             places.extend((0..=count as usize).map(|k| (first + least + k as f64 * vehicle.step, 1.0)));
         }
         places.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));

@@ -48,7 +48,7 @@ impl Figure for InfluenceLine {
         match (&found.vehicle, found.verdict) {
             (Some(influence), _) => {
                 let Some(own) = shown(influence, options.motion_progress) else {
-                    return vec![vehicle_factor(influence)];
+                    return vec![vehicle_factor(scene, influence)];
                 };
                 let times = own.factor.map_or("any multiple of".to_owned(), |factor| three_down(factor) + " ×");
                 let words = format!("carries {times} the vehicle, {}", vehicle_position(scene, own));

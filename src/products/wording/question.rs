@@ -269,14 +269,19 @@ pub fn vehicle_position(scene: &Scene, position: &VehiclePosition) -> String {
     format!("first axle at x = {}{toward}, on {}", amount(position.at, scene.units().length()), listed(&blocks))
 }
 
-/// States the least factor in a few words: `carries 2.31 × the vehicle`.
-pub fn vehicle_factor(influence: &Influence) -> String {
+/// States the least factor in a few words: `carries 2.31 × the vehicle`. The factor multiplies the listed loads too, unless
+/// they are fixed.
+pub fn vehicle_factor(scene: &Scene, influence: &Influence) -> String {
     match influence.governing.and_then(|number| influence.positions[number].factor) {
         None => "carries any multiple of the vehicle".to_owned(),
         Some(factor) if factor < 1.0 => {
             format!("falls under the vehicle: it carries {} × its weight, and stands without it", three_down(factor))
         }
-        Some(factor) => format!("carries {} × the vehicle", three_down(factor)),
+        Some(factor) => {
+            let mut loads = scene.loads().iter().filter(|load| !load.is_fixed);
+            let is_loaded = loads.any(|load| load.force.norm() > 0.0 || load.torque != 0.0);
+            format!("carries {} × the vehicle{}", three_down(factor), if is_loaded { " and its loads" } else { "" })
+        }
     }
 }
 
@@ -285,8 +290,6 @@ pub fn vehicle_factor(influence: &Influence) -> String {
 pub fn vehicle_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     let influence = found.vehicle.as_ref();
     let factor = influence.and_then(|own| own.positions[own.governing?].factor);
-    // The factor multiplies the loads too.
-    let is_loaded = scene.loads().iter().any(|load| !load.is_fixed && load.force.norm() > 0.0);
     match found.under_vehicle {
         Some(under) => {
             let alone = format!("{} without it", under.alone.verb());
@@ -294,8 +297,7 @@ pub fn vehicle_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> 
             Some(format!("under its vehicle: {}{alone}", carries.unwrap_or_default()))
         }
         None if found.verdict == Verdict::Stable => {
-            let what = if is_loaded { "the vehicle and its loads" } else { "the vehicle" };
-            factor.map(|factor| format!("carries {} × {what}", three_down(factor)))
+            influence.filter(|_| factor.is_some()).map(|own| vehicle_factor(scene, own))
         }
         None => None,
     }
@@ -306,7 +308,7 @@ pub fn vehicle_sentence(scene: &Scene, influence: &Influence) -> String {
     let count = counted(influence.positions.len(), "position");
     let governing = influence.governing.map(|number| vehicle_position(scene, &influence.positions[number]));
     let at = governing.map_or(String::new(), |at| format!("; it governs with the {at}"));
-    format!("{}{at} ({count})", vehicle_factor(influence))
+    format!("{}{at} ({count})", vehicle_factor(scene, influence))
 }
 
 /// Describes the range of the horizontal thrust at the supports of a frame (numbered from 0) in a sentence without a full
