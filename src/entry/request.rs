@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::value::{FrameChoice, SensitivityMargin, TimeLimit, length, reach, seconds};
-use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Reach, Toward, typed_capacity};
+use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Reach, typed_capacity};
 #[cfg(feature = "certificate")]
 use crate::mechanics::certificate::Certificate;
 use crate::mechanics::scene::{BlockId, Scene, SceneError, Setting};
@@ -339,12 +339,10 @@ impl FigureArgs {
 
     /// Returns the options of the figure of a scene, in a theme and on a page of this width in pixels.
     pub(crate) fn options(&self, theme: Theme, width: Option<f64>) -> Result<figure::Options, String> {
-        let toward = match self.margin.map(|margin| Toward::from_margin(margin.0)) {
-            Some(None) if self.kind.needs_margins() => {
-                return Err("--kind margin cannot show the margins friction and kernel; use --kind sensitivity".into());
-            }
-            toward => toward.flatten().unwrap_or_default(),
-        };
+        let toward = self.margin.map(|margin| margin.0).unwrap_or_default();
+        if self.kind.needs_margins() && !toward.changes_loads() {
+            return Err("--kind margin cannot show the margins friction and kernel; use --kind sensitivity".into());
+        }
         Ok(figure::Options { toward, theme, width, ..self.options.clone() })
     }
 

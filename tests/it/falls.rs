@@ -284,8 +284,8 @@ fn just_beyond_its_limit_a_wall_needs_the_least_adhesion_by_duality() {
     let file = wall(16, 16);
     let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Tilt]));
     let upright = Analysis::with(scene(&file), &options).frames.remove(0);
-    let tilt = &upright.margins.as_ref().expect("margins were requested").tilt;
-    let limit = tilt.right.at().expect("the tilt has a limit");
+    let margins = upright.margins.as_ref().expect("margins were requested");
+    let limit = margins.most(MarginKind::Tilt).expect("the tilt has a limit");
     let scene = scene(&tilted(file, limit + 1e-4));
     let frame = Analysis::new(&scene).frames.remove(0);
     assert_eq!(frame.verdict, Verdict::Unstable);

@@ -5,7 +5,7 @@
 //! `DRYSTONE_INTERVAL_SCENES=3000` checks more scenes than the usual run; `DRYSTONE_INTERVAL_FIRST` is the number of
 //! the first scene.
 
-use drystone::analysis::{End, Interval, Margin, MarginKinds, Margins, Options};
+use drystone::analysis::{End, Interval, MarginKind, MarginKinds, Margins, Options};
 use drystone::session::Session;
 use drystone::{Analysis, Scene};
 use rayon::prelude::*;
@@ -38,8 +38,8 @@ fn known(name: &str) -> (Value, Margins) {
 
 /// Both ends as numbers, infinite if there is no end. `None` for an empty interval. Panics if an end is withheld.
 #[track_caller]
-fn ends(interval: &Option<Interval>) -> Option<[f64; 2]> {
-    read(interval.as_ref().expect("the interval was requested")).expect("both ends are confirmed")
+fn ends(interval: Option<&Interval>) -> Option<[f64; 2]> {
+    read(interval.expect("the interval was requested")).expect("both ends are confirmed")
 }
 
 /// Like [`ends`], with an error if an end is withheld.
@@ -72,8 +72,7 @@ fn near(found: Option<[f64; 2]>, expected: [f64; 2]) {
 fn structures_that_fall_at_every_load_factor_have_no_interval() {
     for name in ["hang", "over", "ramp", "side"] {
         let (_, margins) = known(&format!("load-factor-unbounded-{name}"));
-        assert_eq!(ends(&margins.intervals.load_factor), None, "{name}");
-        assert_eq!(margins.load_factor, Margin::None, "{name}");
+        assert_eq!(ends(margins.of(MarginKind::LoadFactor)), None, "{name}");
     }
 }
 
@@ -82,8 +81,8 @@ fn structures_that_fall_at_every_load_factor_have_no_interval() {
 #[test]
 fn a_half_plane_of_stable_directions_of_gravity_ends_at_half_a_turn() {
     let (_, margins) = known("tilt-half-plane");
-    near(ends(&margins.intervals.tilt), [-180.0, 0.0]);
-    near(ends(&margins.intervals.horizontal_load), [f64::NEG_INFINITY, 0.0]);
+    near(ends(margins.of(MarginKind::Tilt)), [-180.0, 0.0]);
+    near(ends(margins.of(MarginKind::HorizontalLoad)), [f64::NEG_INFINITY, 0.0]);
 }
 
 /// Without its loads this structure stands. By its mechanism, it falls at every larger factor, but rounding puts the
@@ -91,7 +90,7 @@ fn a_half_plane_of_stable_directions_of_gravity_ends_at_half_a_turn() {
 #[test]
 fn rounding_does_not_exclude_the_load_factor_zero() {
     let (_, margins) = known("load-factor-zero");
-    near(ends(&margins.intervals.load_factor), [0.0, 0.0]);
+    near(ends(margins.of(MarginKind::LoadFactor)), [0.0, 0.0]);
 }
 
 /// Gravity points up in this scene, and the blocks stand on the ground if it is turned by exactly 180°. At every other
@@ -99,7 +98,7 @@ fn rounding_does_not_exclude_the_load_factor_zero() {
 #[test]
 fn a_frame_that_stands_at_one_tilt_only_has_an_interval() {
     let (_, margins) = known("tilt-at-half-a-turn");
-    let [low, high] = ends(&margins.intervals.tilt).expect("the interval is not empty");
+    let [low, high] = ends(margins.of(MarginKind::Tilt)).expect("the interval is not empty");
     assert!((low.abs() - 180.0).abs() < 1e-6 && (high.abs() - 180.0).abs() < 1e-6, "{low}, {high}");
 }
 
@@ -108,14 +107,12 @@ fn a_frame_that_stands_at_one_tilt_only_has_an_interval() {
 #[test]
 fn groups_with_disjoint_intervals_stand_at_no_value() {
     let (_, margins) = known("margin-horizontal-two-groups");
-    assert_eq!(ends(&margins.intervals.horizontal_load), None);
+    assert_eq!(ends(margins.of(MarginKind::HorizontalLoad)), None);
     let (_, margins) = known("margin-load-factor-two-groups");
-    assert_eq!(ends(&margins.intervals.load_factor), None);
-    assert_eq!(margins.load_factor, Margin::None);
+    assert_eq!(ends(margins.of(MarginKind::LoadFactor)), None);
     let (_, margins) = known("margin-robot-other-falls");
-    for limit in [&margins.robots[0].fx, &margins.robots[0].fy, &margins.robots[0].torque] {
-        assert_eq!(*limit, Margin::None);
-    }
+    let (_, limits) = margins.robots().next().expect("a robot holds");
+    assert!(limits.iter().all(|limit| matches!(limit, Interval::Empty(_))), "{limits:?}");
 }
 
 /// About the edge of the pier, the moment of the counterweight must be at least that of the plank.
@@ -124,8 +121,7 @@ fn a_plank_needs_three_tenths_of_its_counterweight() {
     let (file, margins) = known("plank");
     let exact = exact_interval(&file, Growing::ListedLoads).expect("it stands at some factor");
     assert!(exact[0] > 0.29 && exact[0] < 0.31, "{exact:?}");
-    near(ends(&margins.intervals.load_factor), exact);
-    assert_eq!(margins.load_factor, Margin::Unbounded);
+    near(ends(margins.of(MarginKind::LoadFactor)), exact);
 }
 
 /// The program of the load nearest to the present one finds the interval; steps outward from mechanisms alone do not.
@@ -133,17 +129,16 @@ fn a_plank_needs_three_tenths_of_its_counterweight() {
 fn a_wall_that_falls_stands_if_it_is_pushed_far_enough_to_the_left() {
     // The exact program finds these values, in 20 s.
     let (_, margins) = known("horizontal-load-nearest");
-    near(ends(&margins.intervals.horizontal_load), [f64::NEG_INFINITY, -0.376_600_190_575]);
+    near(ends(margins.of(MarginKind::HorizontalLoad)), [f64::NEG_INFINITY, -0.376_600_190_575]);
 }
 
 #[test]
 fn an_arch_that_falls_as_it_is_has_no_margin_to_the_side() {
     let (_, margins) = known("archmech");
-    let [low, high] = ends(&margins.intervals.horizontal_load).expect("it stands when pushed");
+    let [low, high] = ends(margins.of(MarginKind::HorizontalLoad)).expect("it stands when pushed");
     assert!((low + 1.320617).abs() < 1e-5 && (high + 0.589701).abs() < 1e-5, "{low} {high}");
-    assert_eq!(margins.horizontal_load.left, Margin::None);
-    assert_eq!(margins.tilt.right, Margin::None);
-    near(ends(&margins.intervals.load_factor), [0.0, 0.327657247]);
+    assert_eq!([margins.least(MarginKind::HorizontalLoad), margins.most(MarginKind::Tilt)], [None; 2]);
+    near(ends(margins.of(MarginKind::LoadFactor)), [0.0, 0.327657247]);
 }
 
 /// Large polygons and a robot: the reported least friction used to be 0.3 % too high.
@@ -152,7 +147,7 @@ fn the_least_friction_of_scenes_with_robots_is_exact() {
     for name in ["friction-margin-300084", "friction-margin-300297"] {
         let (file, margins) = known(name);
         let mut problems = Problems::default();
-        check_friction(&file, &margins.intervals, &mut problems);
+        check_friction(&file, &margins, &mut problems);
         assert!(problems.list.is_empty(), "{name}: {:?}", problems.list);
     }
 }
@@ -171,16 +166,15 @@ fn problems_of(number: u64, file: &Value, has_band: bool) -> Vec<String> {
         Ok(scene) => scene,
         Err(error) => return vec![format!("{number}: {error}")],
     };
-    let margins = analysed(&scene);
-    let found = &margins.intervals;
+    let found = &analysed(&scene);
     let mut problems = Problems { has_band, ..Problems::default() };
     let is_loaded = !scene.loads().is_empty();
     if is_loaded {
-        check_linear("load factor", file, Growing::ListedLoads, &found.load_factor, &mut problems);
-    } else if found.load_factor.is_some() || margins.load_factor != Margin::NotApplicable {
+        check_linear("load factor", file, Growing::ListedLoads, found.of(MarginKind::LoadFactor), &mut problems);
+    } else if found.of(MarginKind::LoadFactor).is_some() {
         problems.push("a load factor without loads".into());
     }
-    check_linear("horizontal", file, Growing::AcrossGravity, &found.horizontal_load, &mut problems);
+    check_linear("horizontal", file, Growing::AcrossGravity, found.of(MarginKind::HorizontalLoad), &mut problems);
     check_friction(file, found, &mut problems);
     check_kernel(file, found, &mut problems);
     check_tilt(file, found, &mut Random::new(number), &mut problems);
@@ -232,7 +226,7 @@ fn friction_and_kernel_are_exact_where_newtons_method_finds_no_root() {
 #[test]
 fn a_tilt_ends_where_a_mechanism_proves_the_fall_and_not_where_forces_cease_to_balance() {
     let margins = analysed_scene(71544);
-    let [low, _] = ends(&margins.intervals.tilt).expect("it stands at some tilts");
+    let [low, _] = ends(margins.of(MarginKind::Tilt)).expect("it stands at some tilts");
     let exact = libm::atan(1.0 / 0.1875).to_degrees() - 180.0;
     assert!((low - exact).abs() < 1e-5, "{low} instead of {exact}");
     let found = problems(71544);
@@ -245,11 +239,11 @@ fn a_tilt_ends_where_a_mechanism_proves_the_fall_and_not_where_forces_cease_to_b
 #[test]
 fn friction_and_kernel_do_not_follow_the_noise_of_the_solver() {
     for (number, exact) in [(71775, 0.4199531408226233), (2003967, 0.8870181546878886)] {
-        let kernel = ends(&analysed_scene(number).intervals.kernel);
+        let kernel = ends(analysed_scene(number).of(MarginKind::Kernel));
         near(kernel, [0.0, exact]);
     }
     for (number, exact) in [(71946, 0.0092133393785455), (2003809, 4.287878787878788)] {
-        let friction = ends(&analysed_scene(number).intervals.friction);
+        let friction = ends(analysed_scene(number).of(MarginKind::Friction));
         near(friction, [exact, f64::INFINITY]);
     }
 }
@@ -257,18 +251,18 @@ fn friction_and_kernel_do_not_follow_the_noise_of_the_solver() {
 /// Without the program of least force with full conditioning, no verdict confirmed these ends, and they were withheld.
 #[test]
 fn an_end_is_confirmed_by_full_conditioning_if_no_other_program_confirms_it() {
-    near(ends(&known("kernel-refined").1.intervals.kernel), [0.0, 0.930063874225665]);
-    near(ends(&known("friction-refined").1.intervals.friction), [1.0003422498703003, f64::INFINITY]);
+    near(ends(known("kernel-refined").1.of(MarginKind::Kernel)), [0.0, 0.930063874225665]);
+    near(ends(known("friction-refined").1.of(MarginKind::Friction)), [1.0003422498703003, f64::INFINITY]);
 }
 
 /// A block hangs on a robot, and the loads would pull it off the wall: it stands at the factor 0 only. Mechanisms
 /// excluded all factors above 10⁻¹¹, where the verdict is undecided, and the factor 0 was not tried.
 #[test]
 fn a_component_that_stands_only_without_its_loads_has_the_factor_zero() {
-    let alone = ends(&analysed_scene(72428).intervals.load_factor);
+    let alone = ends(analysed_scene(72428).of(MarginKind::LoadFactor));
     assert_eq!(alone, Some([0.0, 0.0]));
     // Another part of this scene needs a factor of 20/27.
-    assert_eq!(ends(&analysed_scene(72751).intervals.load_factor), None);
+    assert_eq!(ends(analysed_scene(72751).of(MarginKind::LoadFactor)), None);
 }
 
 /// The margins of a random scene.

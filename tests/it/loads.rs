@@ -1,6 +1,6 @@
 //! Pressures on the sides of blocks, loads that keep their amount, and load cases, compared with sums by hand.
 
-use drystone::analysis::{Margin, MarginKind, MarginKinds, Options, Verdict};
+use drystone::analysis::{MarginKind, MarginKinds, Options, Verdict};
 use drystone::scene::format::{BlockEntry, BlockSide, CaseEntry, DepthEntry, LoadEntry, PressureEntry, SceneFile};
 use drystone::{Analysis, Scene, figure, figure::Kind, output};
 use serde_json::{Value, json};
@@ -15,7 +15,7 @@ fn scene(file: Value) -> Scene {
 fn factor(scene: &Scene) -> f64 {
     let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
     let margins = Analysis::with(scene, &options).frames[0].margins.clone().expect("requested");
-    margins.load_factor.at().expect("a limit")
+    margins.most(MarginKind::LoadFactor).expect("a limit")
 }
 
 /// A block of width `b` and height `h`, m, with the unit weight 22 kN/m³, on level ground.
@@ -146,7 +146,7 @@ fn a_fixed_load_keeps_its_amount_when_the_load_factor_changes() {
     only[1]["fixed"] = json!(true);
     let options = Options::default().margins(true);
     let frames = Analysis::with(scene(on_floor(1.0, 2.0, 9.0, only)), &options).frames;
-    assert_eq!(frames[0].margins.as_ref().expect("requested").load_factor, Margin::NotApplicable);
+    assert_eq!(frames[0].margins.as_ref().expect("requested").of(MarginKind::LoadFactor), None);
 }
 
 fn with_cases(cases: Value) -> Scene {
@@ -174,7 +174,7 @@ fn a_frame_has_the_results_of_its_worst_case() {
     assert_eq!(frame.verdict, Verdict::Stable);
     assert_eq!(found.each[found.governing].id, "push");
     // 0.9 · 88 kN · 0.5 m against 1.5 · 10 kN · 2 m.
-    let at = frame.margins.as_ref().expect("requested").load_factor.at().expect("a limit");
+    let at = frame.margins.as_ref().expect("requested").most(MarginKind::LoadFactor).expect("a limit");
     assert!((at - 0.9 * 44.0 / 30.0).abs() < 1e-6, "{at}");
     // The least normal force at the ground is 0.9 times the weight, in the case `push`. The greatest is the weight and
     // the snow together, in the case `all`.
@@ -237,7 +237,7 @@ fn the_cases_on_the_page_of_questions_have_the_factors_that_it_states() {
     let cases = frame.cases.as_ref().expect("the scene has cases");
     assert_eq!(cases.each.len(), 3);
     for case in &cases.each {
-        let factor = case.margins.as_ref().expect("requested").load_factor.at().expect("a limit");
+        let factor = case.margins.as_ref().expect("requested").most(MarginKind::LoadFactor).expect("a limit");
         let words =
             format!("case {}: stands, carries its loads times {:.2}", case.id, (100.0 * factor).floor() / 100.0);
         assert!(page.contains(&words), "{words}");

@@ -184,7 +184,7 @@ fn the_figure_of_a_margin_shows_the_structure_and_its_fall() {
     let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
     let options = drystone::analysis::Options::default().margins(true);
     let analysis = Analysis::with(&scene, &options);
-    let (turn, motions) = analysis.edge(0, drystone::analysis::Toward::Tilt).expect("it topples");
+    let (turn, motions) = analysis.edge(0, drystone::analysis::MarginKind::Tilt).expect("it topples");
     assert!((turn.abs() - 14.036).abs() < 1e-2, "{turn}");
     let [motion] = &motions[..] else { panic!("{motions:?}") };
     // The block turns about the lower corner on the side towards which gravity tilts, so this corner is at rest.

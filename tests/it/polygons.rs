@@ -1,6 +1,6 @@
 //! Missing forces and loads in figures: the figure of a structure that falls must not look like a balance.
 
-use drystone::analysis::{Analysis, Options as AnalysisOptions, Toward, Verdict};
+use drystone::analysis::{Analysis, MarginKind, Options as AnalysisOptions, Verdict};
 use drystone::drawing::{Drawing, Group, Item, Theme};
 use drystone::figure::{self, Kind, Options};
 use drystone::report::entry::{Entry, File, ReportOptions, SheetPart};
@@ -63,7 +63,7 @@ fn a_margin_that_ends_at_0_names_the_side_to_which_the_structure_falls() {
     let scene = crate::structure::scene(&file);
     let analysis = Analysis::with(&scene, &AnalysisOptions::default().margins(true));
     for (toward, expected) in
-        [(Toward::Tilt, "stands from 30.9° left to 0°"), (Toward::HorizontalLoad, "stands from 0.6 left to 0")]
+        [(MarginKind::Tilt, "stands from 30.9° left to 0°"), (MarginKind::HorizontalLoad, "stands from 0.6 left to 0")]
     {
         let options = Options::default().toward(toward);
         let drawing = figure::draw(&analysis, Kind::Margin, &options);
@@ -76,10 +76,10 @@ fn a_margin_that_ends_at_0_names_the_side_to_which_the_structure_falls() {
 #[test]
 fn a_margin_with_two_ends_shows_one_collapse() {
     let analysis = Analysis::with(block(1.0, 0.5), &AnalysisOptions::default().margins(true));
-    let ends = analysis.edges(0, Toward::Tilt);
+    let ends = analysis.edges(0, MarginKind::Tilt);
     assert_eq!(ends.len(), 2);
     assert!(ends[0].0.abs() <= ends[1].0.abs() && ends[0].0 * ends[1].0 < 0.0);
-    assert_eq!(analysis.edge(0, Toward::Tilt), ends.first().cloned());
+    assert_eq!(analysis.edge(0, MarginKind::Tilt), ends.first().cloned());
     let drawing = figure::draw(&analysis, Kind::Margin, &Options::default());
     let ghosts = classes(&drawing.items, &["ghosts"]);
     assert_eq!(ghosts.len(), 1);
@@ -89,7 +89,7 @@ fn a_margin_with_two_ends_shows_one_collapse() {
 #[test]
 fn a_margin_of_loads_states_the_loads_at_which_the_verdict_changes() {
     let analysis_options = AnalysisOptions::default().margins(true);
-    let options = Options::default().toward(Toward::LoadFactor);
+    let options = Options::default().toward(MarginKind::LoadFactor);
     let pushed = block(1.0, 2.0);
     let analysis = Analysis::with(&pushed, &analysis_options);
     let drawing = figure::draw(&analysis, Kind::Margin, &options);

@@ -30,7 +30,7 @@ fn single(file: &Value, loads: &[(String, [f64; 2], f64)]) -> Option<f64> {
     file["loads"] = loads.collect();
     let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
     let frame = Analysis::with(scene(&file), &options).frames.remove(0);
-    frame.margins.as_ref().expect("margins").load_factor.at()
+    frame.margins.as_ref().expect("margins").most(MarginKind::LoadFactor)
 }
 
 /// Compares the positions of a vehicle, one of `every`, with single checks.

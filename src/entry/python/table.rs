@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyCapsule, PyList};
 
 use crate::geometry::Vector;
-use crate::mechanics::analysis::{Analysis, Contact, ContactKind, Failure, FrameAnalysis, Margin, Margins, RobotForce};
+use crate::mechanics::analysis::{Analysis, Contact, ContactKind, End, Failure, FrameAnalysis, MarginKind, RobotForce};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 
 /// One column.
@@ -25,7 +25,7 @@ enum Column {
 /// A table: columns of equal length, each with its name.
 #[pyclass(frozen, module = "drystone._drystone")]
 pub(super) struct Table {
-    columns: Vec<(&'static str, Column)>,
+    columns: Vec<(String, Column)>,
     rows: usize,
 }
 
@@ -36,15 +36,15 @@ impl Table {
     }
 
     /// Returns the names of the columns.
-    fn names(&self) -> Vec<&'static str> {
-        self.columns.iter().map(|column| column.0).collect()
+    fn names(&self) -> Vec<&str> {
+        self.columns.iter().map(|column| column.0.as_str()).collect()
     }
 
     /// Returns the numpy type of each column, and its values as a bytearray or a list of texts. A numpy array that
     /// shares the memory of a bytearray is writable.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&'static str, Bound<'py, PyAny>)>> {
         let bytes = |bytes: Vec<u8>| PyByteArray::new(py, &bytes).into_any();
-        let one = |(_, column): &(&'static str, Column)| {
+        let one = |(_, column): &(String, Column)| {
             Ok(match column {
                 Column::Real(all) => {
                     let all = all.iter().flat_map(|x| x.to_ne_bytes());
@@ -88,7 +88,7 @@ impl Table {
                 Column::Flag(all) => (DataType::Boolean, Arc::new(BooleanArray::from(all.clone()))),
                 Column::Word(all) => (DataType::Utf8, Arc::new(StringArray::from_iter_values(all))),
             };
-            fields.push(Field::new(*name, kind, false));
+            fields.push(Field::new(name, kind, false));
             arrays.push(array);
         }
         RecordBatch::try_new(Arc::new(Schema::new(fields)), arrays)
@@ -125,7 +125,7 @@ pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     let scenes = names.rows.iter();
     let titles = scenes.map(|(frame, (_, analysis))| analysis.scene.frames()[*frame].title.clone());
     let titles = Column::Word(titles.collect());
-    names.columns.push(("title", titles));
+    names.columns.push(("title".into(), titles));
     let mut rows = Rows::new(numbered);
     rows.columns = names.columns;
     rows.word("verdict", |row| row.1.verdict.word().into());
@@ -135,50 +135,44 @@ pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     rows.real("total_force", |row| row.1.total_force);
     rows.real("total_sticking", |row| row.1.total_sticking);
     let has_margins = rows.rows.iter().any(|(_, row)| row.1.margins.is_some());
-    for (name, of) in MARGINS.iter().filter(|_| has_margins) {
-        rows.real(name, |row| row.1.margins.as_ref().map_or(f64::NAN, |m| value(of(m))));
+    for kind in MarginKind::of_frame().filter(|_| has_margins) {
+        let (name, ends) = (kind.word(), kind.about().ends);
+        for (end, side, sign) in [(0, "left", -1.0), (1, "right", 1.0)] {
+            let value = |row: &FrameAnalysis| value(row.margins.as_ref().and_then(|margins| margins.end(kind, end)));
+            match ends {
+                [true, true] => rows.real(format!("{name}_{side}"), |row| sign * value(row.1)),
+                _ if ends[end] => rows.real(name, |row| value(row.1)),
+                _ => {}
+            }
+        }
     }
     rows.table()
 }
 
-/// The column of a margin, and the function that returns the margin.
-type NamedMargin = (&'static str, fn(&Margins) -> &Margin);
-
-/// The margins of a frame that are a single number. The margins of the robots are left out.
-const MARGINS: [NamedMargin; 7] = [
-    ("friction", |m| &m.friction),
-    ("tilt_left", |m| &m.tilt.left),
-    ("tilt_right", |m| &m.tilt.right),
-    ("horizontal_load_left", |m| &m.horizontal_load.left),
-    ("horizontal_load_right", |m| &m.horizontal_load.right),
-    ("kernel", |m| &m.kernel),
-    ("load_factor", |m| &m.load_factor),
-];
-
-/// Converts a margin to a number: infinity if the margin is unbounded, and NaN if it has no value.
-fn value(margin: &Margin) -> f64 {
-    match margin {
-        Margin::Unbounded => f64::INFINITY,
-        other => other.at().unwrap_or(f64::NAN),
+/// Returns the value at an end of an interval: infinity if the interval is unbounded there, and NaN if it has no value.
+fn value(end: Option<&End>) -> f64 {
+    match end {
+        Some(End::Unbounded) => f64::INFINITY,
+        end => end.and_then(End::value).unwrap_or(f64::NAN),
     }
 }
 
 /// Rows, each with the number of its frame, and the columns that were computed from the rows.
 struct Rows<T> {
     rows: Vec<(usize, T)>,
-    columns: Vec<(&'static str, Column)>,
+    columns: Vec<(String, Column)>,
 }
 
 impl<T> Rows<T> {
     fn new(rows: Vec<(usize, T)>) -> Rows<T> {
         let frames = rows.iter().map(|(frame, _)| *frame as i64).collect();
-        Rows { rows, columns: vec![("frame", Column::Whole(frames))] }
+        Rows { rows, columns: vec![("frame".into(), Column::Whole(frames))] }
     }
 
-    fn real(&mut self, name: &'static str, of: impl Fn(&T) -> f64) {
+    fn real(&mut self, name: impl Into<String>, of: impl Fn(&T) -> f64) {
         // Adding 0 turns −0 into 0, as in the JSON result.
         let all = self.rows.iter().map(|(_, row)| of(row) + 0.0).collect();
-        self.columns.push((name, Column::Real(all)));
+        self.columns.push((name.into(), Column::Real(all)));
     }
 
     fn pair(&mut self, names: [&'static str; 2], of: impl Fn(&T) -> Vector) {
@@ -188,17 +182,17 @@ impl<T> Rows<T> {
 
     fn whole(&mut self, name: &'static str, of: impl Fn(&T) -> i64) {
         let all = self.rows.iter().map(|(_, row)| of(row)).collect();
-        self.columns.push((name, Column::Whole(all)));
+        self.columns.push((name.into(), Column::Whole(all)));
     }
 
     fn flag(&mut self, name: &'static str, of: impl Fn(&T) -> bool) {
         let all = self.rows.iter().map(|(_, row)| of(row)).collect();
-        self.columns.push((name, Column::Flag(all)));
+        self.columns.push((name.into(), Column::Flag(all)));
     }
 
     fn word(&mut self, name: &'static str, of: impl Fn(&T) -> String) {
         let all = self.rows.iter().map(|(_, row)| of(row));
-        self.columns.push((name, Column::Word(all.collect())));
+        self.columns.push((name.into(), Column::Word(all.collect())));
     }
 
     /// Adds columns with the names of two bodies and their indices among the blocks. The index is −1 for the ground. If

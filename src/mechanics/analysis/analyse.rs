@@ -14,7 +14,7 @@ use super::frame::complete_frame;
 use super::frame::{Key, key};
 use super::frame::{SolveReport, Stages};
 use super::gather::{add_component, unloaded_frame};
-use super::margin::{self, Intervals, Part};
+use super::margin::{self, Margins, Part};
 use super::placement;
 use super::sensitivity::{self, Sensitivity};
 use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
@@ -35,7 +35,7 @@ const MIN_PARALLEL_COMPONENTS: usize = 17;
 #[derive(Default)]
 pub(super) struct ResultCache {
     findings: BTreeMap<Key, Outcome>,
-    intervals: BTreeMap<Key, Intervals>,
+    margins: BTreeMap<Key, Margins>,
 }
 
 /// A component of a frame, with its key in the cache and the results of its decision.
@@ -105,11 +105,11 @@ pub(super) fn analyse_frame(context: &FrameContext, options: Options, known: &mu
     if options.wedging {
         analysis.solve.stages.wedging = after - before;
     }
-    let decided_count = find_margins(context.scene, &mut analysis, &solved, options, &mut known.intervals);
+    let decided_count = find_margins(context.scene, &mut analysis, &solved, options, &mut known.margins);
     if decided_count.is_some() {
         analysis.solve.stages.margins = seconds() - after;
     }
-    analysis.sensitivity = find_sensitivity(context, &analysis, &solved, options, &known.intervals);
+    analysis.sensitivity = find_sensitivity(context, &analysis, &solved, options, &known.margins);
     analysis.effects.push(report::margins(decided_count));
     analysis.effects.push(report::wedging(wedging));
     if options.placement {
@@ -197,14 +197,14 @@ fn find_margins(
     analysis: &mut FrameAnalysis,
     solved: &[SolvedComponent],
     options: Options,
-    known: &mut BTreeMap<Key, Intervals>,
+    known: &mut BTreeMap<Key, Margins>,
 ) -> Option<usize> {
     let kinds = options.wanted_margins()?;
     let parts = solved.iter().map(|s| Part { component: s.component, key: s.key, findings: s.findings });
     let parts: Vec<Part> = parts.collect();
     let (margins, decided_count) = margin::find_margins(&parts, kinds, known);
     let name = |robot: RobotId| scene.robots[robot.0].id.clone();
-    analysis.notices.extend(margins.intervals.withheld(name));
+    analysis.notices.extend(margins.withheld(name));
     let most = parts.iter().map(|part| part.component.grips.len()).max().unwrap_or_default();
     if kinds.has(margin::MarginKind::Robots) && most > margin::MAX_ROBOTS {
         analysis.notices.push(format!(
@@ -224,14 +224,14 @@ fn find_sensitivity(
     analysis: &FrameAnalysis,
     solved: &[SolvedComponent],
     options: Options,
-    known: &BTreeMap<Key, Intervals>,
+    known: &BTreeMap<Key, Margins>,
 ) -> Option<Sensitivity> {
     let kind = options.sensitivity?;
-    let intervals = &analysis.margins.as_ref()?.intervals;
+    let margins = analysis.margins.as_ref()?;
     let parts = solved.iter().map(|s| sensitivity::Part {
         component: s.component,
-        interval: known.get(s.key).and_then(|intervals| intervals.of(kind)),
+        interval: known.get(s.key).and_then(|margins| margins.of(kind)),
     });
     let parts: Vec<sensitivity::Part> = parts.collect();
-    Some(sensitivity::find(context, &parts, intervals, kind))
+    Some(sensitivity::find(context, &parts, margins.of(kind), kind))
 }

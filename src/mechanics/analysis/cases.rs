@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::{Analysis, FrameAnalysis, Influence, Margin, Margins, Options, Verdict, reach, repeat};
+use super::{Analysis, FrameAnalysis, Influence, MarginKind, Margins, Options, Verdict, reach, repeat};
 use crate::mechanics::scene::{Case, Load, Note, Scene};
 
 /// The results of all load cases of one frame.
@@ -198,11 +198,13 @@ fn is_worse(first: &FrameAnalysis, second: &FrameAnalysis) -> bool {
 /// Returns the margins by which cases are compared: the load factor, then the tilt in degrees. A margin is infinite if it
 /// is not known or has no limit, such as the load factor of a case without loads.
 fn reserve(found: &FrameAnalysis) -> [f64; 2] {
-    let margin = |of: &Margin| of.at().unwrap_or(f64::INFINITY);
     let margins = found.margins.as_ref();
-    margins.map_or([f64::INFINITY; 2], |margins| {
-        [margin(&margins.load_factor), margin(&margins.tilt.left).min(margin(&margins.tilt.right))]
-    })
+    let least = |kind: MarginKind| {
+        let ends = margins.map_or([None; 2], |margins| [margins.least(kind), margins.most(kind)]);
+        ends.into_iter().flatten().map(f64::abs).fold(f64::INFINITY, f64::min)
+    };
+    let factor = margins.and_then(|margins| margins.most(MarginKind::LoadFactor));
+    [factor.unwrap_or(f64::INFINITY), least(MarginKind::Tilt)]
 }
 
 /// Returns the forces at each interface, as ranges without length. All cases have the same interfaces.

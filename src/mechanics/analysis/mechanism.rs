@@ -13,7 +13,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::{Analysis, FrameAnalysis, MarginKind, Verdict};
+use super::{Analysis, FrameAnalysis, Verdict};
 use crate::geometry::{Point, Vector, cross};
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
@@ -26,33 +26,6 @@ const MAX_BLOCKS: usize = 300;
 const CLOSED_TOL: f64 = 1e-5;
 /// A motion along the joints is drawn if its norm is at least this fraction of the norm of the rising motion.
 const MIN_KEPT_NORM: f64 = 0.5;
-
-/// The parameter that is changed until the frame falls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Toward {
-    /// The rotation of gravity in degrees, positive if the tip of the gravity vector moves to the right. Listed loads
-    /// do not rotate.
-    #[default]
-    Tilt,
-    /// The fraction of each weight that also acts at right angles to gravity, positive to the right.
-    HorizontalLoad,
-    /// The factor on the listed loads.
-    LoadFactor,
-}
-
-impl Toward {
-    /// Returns the parameter that belongs to a margin; `None` for friction, kernel and robots, which this type does not
-    /// contain.
-    pub fn from_margin(kind: MarginKind) -> Option<Toward> {
-        match kind {
-            MarginKind::Tilt => Some(Toward::Tilt),
-            MarginKind::HorizontalLoad => Some(Toward::HorizontalLoad),
-            MarginKind::LoadFactor => Some(Toward::LoadFactor),
-            MarginKind::Friction | MarginKind::Kernel | MarginKind::Robots => None,
-        }
-    }
-}
 
 impl Analysis {
     /// Returns a copy of the analysis for drawing, in which each falling part moves by one elementary mechanism.

@@ -62,11 +62,7 @@ pub use decide::Method;
 pub(crate) use decide::mechanism_of;
 pub use force::{Contact, Failure, RobotForce};
 pub use frame::{SolveReport, Stages};
-pub use margin::{
-    End, Exclusion, Interval, Intervals, Margin, MarginKind, MarginKinds, Margins, RobotIntervals, RobotMargins, Sides,
-    trials,
-};
-pub use mechanism::Toward;
+pub use margin::{End, Exclusion, Interval, Margin, MarginKind, MarginKinds, Margins, trials};
 pub use movement::{Crack, Cracked, MovementOutcome, SupportMovement};
 pub use option::{Accuracy, Options};
 pub use pair::pair;

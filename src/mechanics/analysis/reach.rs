@@ -152,7 +152,7 @@ struct State {
 /// Returns the settings in which a frame is examined: as it is, and at the target.
 fn settings(target: Reach) -> Vec<Setting> {
     let sides: &[f64] = if target.kind == MarginKind::LoadFactor { &[1.0] } else { &[-1.0, 1.0] };
-    let changes = sides.iter().map(|side| Setting::at(target.kind, side * target.value));
+    let changes = sides.iter().map(|side| (target.kind.about().setting)(side * target.value));
     std::iter::once(Setting::default()).chain(changes).collect()
 }
 

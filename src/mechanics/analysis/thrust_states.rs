@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 use super::decide::proved_forces;
 use super::gather::set_forces;
-use super::{Analysis, Contact, FrameAnalysis, Motion, Options, Verdict};
+use super::{Analysis, Contact, FrameAnalysis, MarginKind, Motion, Options, Verdict};
 use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::program::{Column, Force, Program, Scale, columns};
 use crate::mechanics::proof::{Forces, motions_of};
@@ -121,7 +121,7 @@ impl Analysis {
     /// Computes the most central forces: forces that balance the frame with almost the largest safety kernel with
     /// which it stands. `None` if this kernel is unknown, or if the forces have no proof.
     fn central(&self, number: usize) -> Option<ThrustState> {
-        let kernel = self.frames[number].margins.as_ref()?.kernel.at()?;
+        let kernel = self.frames[number].margins.as_ref()?.most(MarginKind::Kernel)?;
         let mut scene = self.scene_of(number).alone(number)?;
         scene.movements.clear();
         scene.vehicle = None;

@@ -3,7 +3,9 @@
 use super::stand::slack_forces;
 use super::{Certificate, Change, FrameForm, LimitForm, LoadForm};
 use crate::geometry::{Vector, quarter_turn};
-use crate::mechanics::analysis::{Cases, End, FrameAnalysis, Interval, LoadCapacity, Verdict, extremes, with_grip};
+use crate::mechanics::analysis::{
+    Cases, End, FrameAnalysis, Interval, LoadCapacity, MarginKind, Verdict, extremes, with_grip,
+};
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::Scene;
 use crate::mechanics::solve::is_late;
@@ -35,29 +37,14 @@ impl Limits<'_> {
         let mut proofs = Vec::new();
         let given = self.assembly;
         let margins = self.found.margins.as_ref().filter(|_| with_margins);
-        let intervals = margins.map(|margins| &margins.intervals);
-        if let Some(intervals) = intervals {
-            let mut add = |name: &str, interval: &Option<Interval>, change: &dyn Fn(f64) -> Changed| {
-                self.add_ends(&mut proofs, name, interval.as_ref(), 1.0, change);
-            };
-            add("friction", &intervals.friction, &|mu| {
-                (Change { friction: Some(mu), ..Change::default() }, given.clone().with_friction(mu))
-            });
-            add("tilt", &intervals.tilt, &|degrees| self.tilted(degrees));
-            add("horizontal_load", &intervals.horizontal_load, &|share| {
-                self.with_gravity(given.pull + quarter_turn(given.pull) * share)
-            });
-            add("kernel", &intervals.kernel, &|kernel| {
-                (Change { kernel: Some(kernel), ..Change::default() }, given.clone().with_kernel(kernel))
-            });
-            add("load_factor", &intervals.load_factor, &|factor| {
-                (Change { load_factor: Some(factor), ..Change::default() }, given.clone().with_load_factor(factor))
-            });
-            for (hold, robot) in intervals.robots.iter().enumerate() {
+        if let Some(margins) = margins {
+            for kind in MarginKind::of_frame() {
+                self.add_ends(&mut proofs, kind.word(), margins.of(kind), 1.0, &|value| self.changed(kind, value));
+            }
+            for (hold, (_, limits)) in margins.robots().enumerate() {
                 let Some(grip) = given.grips.iter().position(|grip| grip.hold == hold) else { continue };
                 let name = &self.bare.grips[grip].robot;
-                let limits = [("fx", &robot.fx), ("fy", &robot.fy), ("torque", &robot.torque)];
-                for (component, (word, interval)) in limits.into_iter().enumerate() {
+                for (component, (word, interval)) in ["fx", "fy", "torque"].into_iter().zip(limits).enumerate() {
                     let size = given.heaviest_load() * if component == 2 { given.length } else { 1.0 };
                     self.add_ends(&mut proofs, &format!("{name} {word}"), Some(interval), size, &|value| {
                         let mut limits = given.grips[grip].limits;
@@ -77,6 +64,19 @@ impl Limits<'_> {
             self.add_placement(&mut proofs, placement);
         }
         proofs
+    }
+
+    /// Returns the change of the frame for a value of the parameter of a margin.
+    fn changed(&self, kind: MarginKind, value: f64) -> Changed {
+        let (given, same) = (self.assembly.clone(), Change::default());
+        match kind {
+            MarginKind::Friction => (Change { friction: Some(value), ..same }, given.with_friction(value)),
+            MarginKind::Tilt => self.tilted(value),
+            MarginKind::HorizontalLoad => self.with_gravity(given.pull + quarter_turn(given.pull) * value),
+            MarginKind::Kernel => (Change { kernel: Some(value), ..same }, given.with_kernel(value)),
+            MarginKind::LoadFactor => (Change { load_factor: Some(value), ..same }, given.with_load_factor(value)),
+            MarginKind::Robots => (same, given),
+        }
     }
 
     /// Adds the proofs just inside and just beyond each end of an interval. An end at which the range of the parameter

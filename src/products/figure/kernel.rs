@@ -13,7 +13,6 @@ use crate::geometry::Point;
 use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke, Theme};
 use crate::products::wording::failure::pair;
-use crate::products::wording::margin::Parameter;
 use crate::products::wording::number::{FULL_UTILISATION, percent, quantity};
 use crate::products::wording::verdict::reason;
 
@@ -47,7 +46,7 @@ impl Figure for Kernel {
             Verdict::Unstable => vec!["no resultants, because no forces balance the structure".into()],
             Verdict::Undecided => vec![format!("no resultants; {}", reason(scene, found))],
             Verdict::Stable if scene.kernel >= 1.0 => vec!["every safe part is a point".into()],
-            Verdict::Stable => verdict::margin(scene, found, Parameter::Kernel).into_iter().collect(),
+            Verdict::Stable => verdict::margin(scene, found, MarginKind::Kernel).into_iter().collect(),
         }
     }
 

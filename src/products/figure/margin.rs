@@ -1,7 +1,7 @@
 //! Draws a collapse margin: the structure in its present position, and strong outlines that show how it would fall just
 //! beyond the margin.
 //!
-//! The options choose the [parameter](Toward). The structure stands for an interval of values of this parameter. The
+//! The options choose the [parameter](MarginKind). The structure stands for an interval of values of this parameter. The
 //! outlines show how it would fall beyond the end that is nearer to the present state; for the load factor, beyond the
 //! upper end. Hinges and slips are those of this collapse. If gravity is turned or a horizontal load is added, arrows
 //! show the values at both ends. Loads are drawn with their present magnitudes.
@@ -15,9 +15,9 @@ use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
-use crate::mechanics::analysis::{Analysis, End, Toward, Verdict};
+use crate::mechanics::analysis::{Analysis, End, MarginKind, Verdict};
 use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, Path, text};
-use crate::products::wording::margin::{Parameter, stated};
+use crate::products::wording::margin::{end, stated};
 
 /// Length of the longest of the arrows that show gravity or a horizontal load, mm.
 const GRAVITY_LENGTH: f64 = 10.0;
@@ -42,11 +42,11 @@ impl Figure for CollapseMargin {
     fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
         let found = &analysis.frames[frame];
         let margins = stated(&analysis.scene, found);
-        let margin = margins.iter().find(|margin| margin.parameter == parameter(options.toward));
+        let margin = margins.iter().find(|margin| margin.kind == options.toward);
         vec![match (margin, options.toward) {
             (Some(margin), _) => format!("{}: {}", margin.name, margin.stands()),
             (None, _) if found.margins.is_none() => "its margins were not computed".to_owned(),
-            (None, Toward::LoadFactor) => "it has no loads that could grow".to_owned(),
+            (None, MarginKind::LoadFactor) => "it has no loads that could grow".to_owned(),
             (None, _) => "its margin was not computed".to_owned(),
         }]
     }
@@ -61,15 +61,6 @@ impl Figure for CollapseMargin {
             gives::draw_fall(canvas, &fall, &fall.joints);
             gravity(canvas, *edge);
         }
-    }
-}
-
-/// Converts the parameter of a figure to the parameter of the sentences in [`wording`](crate::products::wording::margin).
-fn parameter(toward: Toward) -> Parameter {
-    match toward {
-        Toward::Tilt => Parameter::Tilt,
-        Toward::HorizontalLoad => Parameter::HorizontalLoad,
-        Toward::LoadFactor => Parameter::LoadFactor,
     }
 }
 
@@ -97,16 +88,16 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
     let down = canvas.scene().down();
     // The vector of an arrow, as a multiple of gravity.
     let arrow = |value: f64| match toward {
-        Toward::HorizontalLoad => quarter_turn(down) * value,
+        MarginKind::HorizontalLoad => quarter_turn(down) * value,
         _ => {
             let (sin, cos) = sin_cos_degrees(value);
             Vector::new(cos * down.x - sin * down.y, sin * down.x + cos * down.y)
         }
     };
     let meaning = match toward {
-        Toward::LoadFactor => return,
-        Toward::Tilt => "gravity at the limits",
-        Toward::HorizontalLoad => "horizontal load at the limits",
+        MarginKind::Tilt => "gravity at the limits",
+        MarginKind::HorizontalLoad => "horizontal load at the limits",
+        _ => return,
     };
     // The nearer end of the interval is dark, the other one is pale.
     let values = [Some((edge, theme.ink)), other_end(canvas, edge).map(|other| (other, theme.faint))];
@@ -119,7 +110,7 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
     let Some(own) = around(vectors.iter().map(|v| tip(start, *v)).chain([start])) else { return };
     // The amounts stand below the arrows.
     let size = canvas.label_size();
-    let words: Vec<String> = values.iter().map(|(value, _)| parameter(toward).end(*value, *value >= 0.0)).collect();
+    let words: Vec<String> = values.iter().map(|(value, _)| end(toward, *value, *value >= 0.0)).collect();
     let wide = words.iter().map(|words| text::width(words, Face::Sans, size)).fold(own.width, f64::max);
     let left = canvas.extent().at.x - canvas.mm(GRAVITY_DISTANCE) - wide;
     let from = PagePoint::new(left + (wide - own.width) / 2.0 - own.at.x, canvas.structure.at.y - own.at.y);
@@ -146,7 +137,7 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
         }
     }
     let title = match toward {
-        Toward::HorizontalLoad => format!("In addition to gravity, {} of each weight", words[0]),
+        MarginKind::HorizontalLoad => format!("In addition to gravity, {} of each weight", words[0]),
         _ => format!("Gravity turned by {}", words[0]),
     };
     canvas.put(Mark::new(Layer::Missing, "gravity", shapes).titled(title).keyed(&key).avoided(0.2));
@@ -162,7 +153,7 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
 /// `None` if there is no such end or its value is not known.
 fn other_end(canvas: &Canvas<'_>, edge: f64) -> Option<f64> {
     let margins = stated(canvas.scene(), canvas.found());
-    let margin = margins.iter().find(|margin| margin.parameter == parameter(canvas.options.toward))?;
+    let margin = margins.iter().find(|margin| margin.kind == canvas.options.toward)?;
     let ends = [margin.interval.low(), margin.interval.high()].into_iter().flatten();
     ends.filter_map(End::value).find(|other| *other != edge && other * edge <= 0.0)
 }

@@ -1,7 +1,7 @@
 //! [`Options`]: the options of a figure, such as its colours, its scale of arrows and its size, and the block that an
 //! option names.
 
-use crate::mechanics::analysis::Toward;
+use crate::mechanics::analysis::MarginKind;
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::{Colour, Theme};
 use crate::text::{self, nearest};
@@ -172,7 +172,7 @@ request! {
             arg(long, value_name = "N", help = "The movement of a support that --kind movement shows, from 1",
                 value_parser = clap::builder::TypedValueParser::map(clap::value_parser!(u16).range(1..), usize::from));
         /// The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.
-        pub toward: Toward = Toward::default(), arg(skip);
+        pub toward: MarginKind = MarginKind::default(), arg(skip);
         /// How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.
         pub motion_progress: f64 = given.number("way").map_or(1.0, |way| way.clamp(0.0, 1.0)), arg(skip = 1.0);
         /// Whether the picture belongs to an animation: the blocks of a mechanism then move until it is clear what falls.

@@ -139,7 +139,7 @@ fn arrows(canvas: &mut Canvas<'_>, plan: &Plan) {
         let u = (x / long, y / long);
         let outline = sized(canvas, long, arrow.number.is_some()).outline(from, u);
         let path = Path::filled(outline, colour(theme, arrow.number.is_some())).cased(theme.page, canvas.mm(0.15));
-        let per_step = format_change(plan.kind, arrow.effect.norm() * plan.step);
+        let per_step = plan.change(arrow.effect.norm() * plan.step);
         let title = format!("{per_step} for {}", length(scene, plan.step));
         let key = if arrow.number.is_some() { &numbered_key } else { &plain_key };
         let mark = Mark::new(Layer::Missing, "effect", vec![path]).titled(title).keyed(key);
@@ -195,24 +195,12 @@ fn scale_words(scene: &Scene, plan: &Plan, pixels: f64, most: f64) -> Option<(f6
     let amount = round_below(longest.min(most) / pixels * plan.step);
     let drawn = amount / plan.step * pixels;
     let name = name(plan.kind, plan.is_high);
-    let change = format_change(plan.kind, amount);
-    let change = match (plan.kind, plan.is_high) {
-        (MarginKind::Tilt | MarginKind::HorizontalLoad, is_high) => {
-            let side = end_name(plan.kind, is_high);
-            format!("{name} {change} farther to the {side}")
-        }
-        (_, true) => format!("{name} +{change}"),
-        (_, false) => format!("{name} −{change}"),
+    let change = plan.change(amount);
+    let change = match end_name(plan.kind, plan.is_high) {
+        side if plan.kind.is_signed() => format!("{name} {change} farther to the {side}"),
+        _ => format!("{name} {}{change}", if plan.is_high { '+' } else { '−' }),
     };
     (amount > 0.0 && drawn.is_finite()).then(|| (drawn, format!("{change} for {}", length(scene, plan.step))))
-}
-
-/// Formats a change of a margin. A change of a tilt is followed by the degree sign.
-fn format_change(kind: MarginKind, amount: f64) -> String {
-    match kind {
-        MarginKind::Tilt => format!("{}°", digits(amount)),
-        _ => digits(amount),
-    }
 }
 
 fn colour(theme: &Theme, is_numbered: bool) -> Colour {
@@ -271,6 +259,11 @@ struct Numbered {
 }
 
 impl Plan {
+    /// Writes a change of the margin with its unit.
+    fn change(&self, amount: f64) -> String {
+        format!("{}{}", digits(amount), self.kind.about().unit)
+    }
+
     /// Computes the arrows and the numbered changes of a frame. Returns `None` if the derivatives of the frame's margin
     /// are not known.
     pub fn new(analysis: &Analysis, frame: usize, options: &Options) -> Option<Plan> {

@@ -16,7 +16,6 @@ use crate::mechanics::analysis::{Analysis, Contact, MarginKind, Verdict};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::pictures::drawing::{Outline, PagePoint, Path, Stroke};
 use crate::products::wording::failure::pair;
-use crate::products::wording::margin::Parameter;
 use crate::products::wording::number::{FULL_UTILISATION, percent};
 use crate::products::wording::verdict::reason;
 
@@ -46,7 +45,7 @@ impl Figure for Utilisation {
 
     fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
         let (scene, found) = analysis.at(frame);
-        let mut words: Vec<String> = verdict::margin(scene, found, Parameter::Friction).into_iter().collect();
+        let mut words: Vec<String> = verdict::margin(scene, found, MarginKind::Friction).into_iter().collect();
         if found.verdict == Verdict::Undecided {
             words.push(reason(scene, found));
         }

@@ -1,10 +1,10 @@
 //! Draws the symbol of a verdict: a disc with a tick, a cross or a question mark, so that the verdict is clear without
 //! colours. Its text comes from [`wording`](crate::products::wording).
 
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, Interval, Verdict};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, Interval, MarginKind, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
-use crate::products::wording::margin::{self, Parameter};
+use crate::products::wording::margin;
 
 /// With more blocks than this in a frame, a figure does not ask for a margin that it can do without, because it would
 /// take longer than the figure.
@@ -17,9 +17,9 @@ pub(crate) fn has_cheap_margins(analysis: &Analysis) -> bool {
 
 /// Describes the margin of one parameter: `friction coefficient: stands from 0.42; now 0.6`. Returns `None` if it was
 /// not computed or is undecided.
-pub(crate) fn margin(scene: &Scene, frame_analysis: &FrameAnalysis, parameter: Parameter) -> Option<String> {
+pub(crate) fn margin(scene: &Scene, frame_analysis: &FrameAnalysis, kind: MarginKind) -> Option<String> {
     let margins = margin::stated(scene, frame_analysis);
-    let margin = margins.iter().find(|margin| margin.parameter == parameter)?;
+    let margin = margins.iter().find(|margin| margin.kind == kind)?;
     let decided = !matches!(margin.interval, Interval::Undecided);
     decided.then(|| format!("{}: {}", margin.name, margin.sentence()))
 }

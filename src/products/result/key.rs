@@ -8,6 +8,7 @@ use self::Type::{
     Bound, ByRobot, Count, Exclusions, Flag, FlagOrOpen, Index, Interval, Margin, MotionPairs, Motions, NameList,
     Names, Number, Object, Objects, Pair, Pairs, Place, Points, Rings, Slope, SlopePair, Text, Word,
 };
+use crate::mechanics::analysis::MarginKind;
 
 /// The type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -173,6 +174,86 @@ const MOVING_BLOCK: &[Key] = &[
     key("velocity", Pair, "velocity of this point"),
     key("spin", Number, "spin of the block, positive anticlockwise").unit("1/m"),
 ];
+const SIDES: &[Key] = &[key("left", Margin, "to this side"), key("right", Margin, "to this side")];
+const MOTIONS_TO_SIDES: &[Key] = &[key("left", Motions, "to this side"), key("right", Motions, "to this side")];
+
+/// The number of kinds of margins of the whole frame. The limits of robots are the last kind.
+const OWN: usize = MarginKind::ALL.len() - 1;
+
+/// Returns one key for each kind of margin of the whole frame, and then `more` keys. `of` says what the values are:
+/// margins, intervals, exclusions, or motions beyond the margins.
+const fn of_margins<const N: usize>(of: Type, more: &[Key]) -> [Key; N] {
+    let mut keys = [key("", Text, ""); N];
+    let mut k = 0;
+    while k < N {
+        keys[k] = if k < OWN { of_margin(&of, MarginKind::ALL[k]) } else { more[k - OWN] };
+        k += 1;
+    }
+    keys
+}
+
+const fn of_margin(of: &Type, kind: MarginKind) -> Key {
+    let about = kind.about();
+    let ([margin, interval, excluded, beyond], name) = (about.keys, about.words[0]);
+    let sides = kind.is_signed();
+    match of {
+        Margin if !sides => key(name, Margin, margin).when(IF_MARGIN_REQUESTED),
+        Margin => {
+            let sides = if about.unit.is_empty() { SIDES } else { TILT_SIDES };
+            key(name, Object, margin).of(sides).when(IF_MARGIN_REQUESTED)
+        }
+        Interval => key(name, Interval, interval).unit(about.unit).when(about.condition),
+        Exclusions => key(name, Exclusions, excluded).unit(about.unit).when(IF_NO_INTERVAL),
+        _ if sides => key(name, Object, beyond).of(MOTIONS_TO_SIDES),
+        _ => key(name, Motions, beyond),
+    }
+}
+
+/// The keys of the margins of a frame.
+#[rustfmt::skip]
+static MARGINS: [Key; OWN + 5] = of_margins(Margin, &[
+    key("robots", ByRobot, "least limits of each robot that holds a block; empty if they were not requested").of(&[
+        key("fx", Margin, "least limit of this force").unit("N"),
+        key("fy", Margin, "least limit of this force").unit("N"),
+        key("torque", Margin, "least limit of its torque").unit("N·m"),
+    ]),
+    key("intervals", Object, "for each parameter, the values at which the frame stands if all else is unchanged; an end is `null` if there is no limit; an interval is `null` if the frame stands at no value; `\"withheld\"` replaces what no verdict confirms, and a notice says why").of(&INTERVALS),
+    key("excluded", Object, "why the frame stands at no value: motions, each with the values that it excludes; together they exclude all. If two parts of the frame conflict, one motion excludes the values below a limit, and the other those above a smaller limit").when("if an interval is `null`").of(&EXCLUDED),
+    key("notes", NameList, "remarks on the intervals, one sentence each").when("if there are remarks"),
+    key("mechanisms", Object, "motion just beyond each margin; empty for a margin that is unbounded or null, and for a margin that was not requested").of(&MECHANISMS),
+]);
+
+#[rustfmt::skip]
+static INTERVALS: [Key; OWN + 1] = of_margins(Interval, &[
+    key("robots", ByRobot, "limits of each robot, each varied alone").when("if requested, with robots that hold blocks").of(&[
+        key("fx", Interval, "limit of this force").unit("N"),
+        key("fy", Interval, "limit of this force").unit("N"),
+        key("torque", Interval, "limit of its torque").unit("N·m"),
+    ]),
+]);
+
+#[rustfmt::skip]
+static EXCLUDED: [Key; OWN + 1] = of_margins(Exclusions, &[
+    key("robots", ByRobot, "they exclude all limits of a robot").when(IF_NO_INTERVAL).of(&[
+        key("fx", Exclusions, "they exclude all limits of this force").unit("N").when(IF_NO_INTERVAL),
+        key("fy", Exclusions, "they exclude all limits of this force").unit("N").when(IF_NO_INTERVAL),
+        key("torque", Exclusions, "they exclude all limits of its torque").unit("N·m").when(IF_NO_INTERVAL),
+    ]),
+]);
+
+#[rustfmt::skip]
+static MECHANISMS: [Key; OWN + 2] = of_margins(Motions, &[
+    key("robots", ByRobot, "just below the least limits of each robot").of(&[
+        key("fx", Motions, "just below this limit"),
+        key("fy", Motions, "just below this limit"),
+        key("torque", Motions, "just below this limit"),
+    ]),
+    key("intervals", Object, "motions just beyond the lower and the upper end of an interval; if an interval is `null`, its motions are in `excluded`").of(&[
+        key("tilt", MotionPairs, "at the ends of this interval").when("if it has an interval"),
+        key("horizontal_load", MotionPairs, "at the ends of this interval").when("if it has an interval"),
+        key("load_factor", MotionPairs, "at the ends of this interval").when("if it has an interval"),
+    ]),
+]);
 
 /// Every key of a result, in the order in which a result has them.
 #[rustfmt::skip]
@@ -249,69 +330,7 @@ pub static KEYS: &[Key] = &[
         ]),
         key("unsupported", NameList, "blocks that would fall even if all contacts and grips could stick").when("if there are unsupported blocks"),
         key("mechanism", Motions, "velocities of the blocks as the collapse begins; empty if the frame stands"),
-        key("margins", Object, "how far the frame is from collapse: the extreme values at which it stands; a margin is null if the frame stands at no value, if the margin does not exist in this frame, or if no value was confirmed (a notice then says so)").when(IF_MARGINS_REQUESTED).of(&[
-            key("friction", Margin, "least friction coefficient, the same at all interfaces").when(IF_MARGIN_REQUESTED),
-            key("tilt", Object, "largest turns of gravity at which the frame stands; each is null if it falls without a turn").when(IF_MARGIN_REQUESTED).of(TILT_SIDES),
-            key("horizontal_load", Object, "largest horizontal force on every block, as a share of its weight").when(IF_MARGIN_REQUESTED).of(&[
-                key("left", Margin, "to this side"),
-                key("right", Margin, "to this side"),
-            ]),
-            key("kernel", Margin, "largest kernel").when(IF_MARGIN_REQUESTED),
-            key("load_factor", Margin, "largest factor on the loads; null also without loads").when(IF_MARGIN_REQUESTED),
-            key("robots", ByRobot, "least limits of each robot that holds a block; empty if they were not requested").of(&[
-                key("fx", Margin, "least limit of this force").unit("N"),
-                key("fy", Margin, "least limit of this force").unit("N"),
-                key("torque", Margin, "least limit of its torque").unit("N·m"),
-            ]),
-            key("intervals", Object, "for each parameter, the values at which the frame stands if all else is unchanged; an end is `null` if there is no limit; an interval is `null` if the frame stands at no value; `\"withheld\"` replaces what no verdict confirms, and a notice says why").of(&[
-                key("friction", Interval, "friction coefficient, the same at all interfaces, from 0 to 1000").when(IF_MARGIN_REQUESTED),
-                key("tilt", Interval, "tilt of gravity, negative to the left; loads do not tilt").unit("°").when(IF_MARGIN_REQUESTED),
-                key("horizontal_load", Interval, "horizontal force on every block as a share of its weight, negative to the left").when(IF_MARGIN_REQUESTED),
-                key("kernel", Interval, "kernel, from 0 to 1; without an upper end if the frame stands at 1").when(IF_MARGIN_REQUESTED),
-                key("load_factor", Interval, "factor on the loads, at least 0; 1 stands for the loads of the scene").when("if requested, with loads"),
-                key("robots", ByRobot, "limits of each robot, each varied alone").when("if requested, with robots that hold blocks").of(&[
-                    key("fx", Interval, "limit of this force").unit("N"),
-                    key("fy", Interval, "limit of this force").unit("N"),
-                    key("torque", Interval, "limit of its torque").unit("N·m"),
-                ]),
-            ]),
-            key("excluded", Object, "why the frame stands at no value: motions, each with the values that it excludes; together they exclude all. If two parts of the frame conflict, one motion excludes the values below a limit, and the other those above a smaller limit").when("if an interval is `null`").of(&[
-                key("friction", Exclusions, "they exclude all coefficients up to 1000, the largest that is tried").when(IF_NO_INTERVAL),
-                key("tilt", Exclusions, "they exclude all turns of gravity; the ranges cover a full turn").unit("°").when(IF_NO_INTERVAL),
-                key("horizontal_load", Exclusions, "they exclude all values").when(IF_NO_INTERVAL),
-                key("kernel", Exclusions, "they exclude all values").when(IF_NO_INTERVAL),
-                key("load_factor", Exclusions, "they exclude all values").when(IF_NO_INTERVAL),
-                key("robots", ByRobot, "they exclude all limits of a robot").when(IF_NO_INTERVAL).of(&[
-                    key("fx", Exclusions, "they exclude all limits of this force").unit("N").when(IF_NO_INTERVAL),
-                    key("fy", Exclusions, "they exclude all limits of this force").unit("N").when(IF_NO_INTERVAL),
-                    key("torque", Exclusions, "they exclude all limits of its torque").unit("N·m").when(IF_NO_INTERVAL),
-                ]),
-            ]),
-            key("notes", NameList, "remarks on the intervals, one sentence each").when("if there are remarks"),
-            key("mechanisms", Object, "motion just beyond each margin; empty for a margin that is unbounded or null, and for a margin that was not requested").of(&[
-                key("friction", Motions, "just below the least friction coefficient"),
-                key("tilt", Object, "just beyond the largest tilts").of(&[
-                    key("left", Motions, "to this side"),
-                    key("right", Motions, "to this side"),
-                ]),
-                key("horizontal_load", Object, "just beyond the largest horizontal loads").of(&[
-                    key("left", Motions, "to this side"),
-                    key("right", Motions, "to this side"),
-                ]),
-                key("kernel", Motions, "just beyond the largest kernel"),
-                key("load_factor", Motions, "just beyond the largest factor on the loads"),
-                key("robots", ByRobot, "just below the least limits of each robot").of(&[
-                    key("fx", Motions, "just below this limit"),
-                    key("fy", Motions, "just below this limit"),
-                    key("torque", Motions, "just below this limit"),
-                ]),
-                key("intervals", Object, "motions just beyond the lower and the upper end of an interval; if an interval is `null`, its motions are in `excluded`").of(&[
-                    key("tilt", MotionPairs, "at the ends of this interval").when("if it has an interval"),
-                    key("horizontal_load", MotionPairs, "at the ends of this interval").when("if it has an interval"),
-                    key("load_factor", MotionPairs, "at the ends of this interval").when("if it has an interval"),
-                ]),
-            ]),
-        ]),
+        key("margins", Object, "how far the frame is from collapse: the extreme values at which it stands; a margin is null if the frame stands at no value, if the margin does not exist in this frame, or if no value was confirmed (a notice then says so)").when(IF_MARGINS_REQUESTED).of(&MARGINS),
         key("sensitivity", Object, "exact derivatives of the ends of one margin's interval with respect to vertices, weights, friction and loads, for unchanged contacts. At a kink, where forces and mechanism are not unique, the backward and the forward derivative are given, or `at_kink` if they were not computed").when("with `--sensitivity`").of(&[
             key("parameter", Word(&["friction", "tilt", "horizontal_load", "kernel", "load_factor"]), "parameter of the margin"),
             key("ends", Objects, "ends of the interval that have a value and a mechanism").of(&[

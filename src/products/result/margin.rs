@@ -11,7 +11,7 @@
 //! has the motions that exclude all values.
 
 use super::json::{Json, compact, motions, object};
-use crate::mechanics::analysis::{CaseResult, End, Interval, Intervals, Margin, Margins, Sides};
+use crate::mechanics::analysis::{CaseResult, End, Interval, MarginKind, Margins};
 use crate::mechanics::scene::Scene;
 
 /// Writes the margins of a frame as one line of JSON: the value of the key `margins` in the result of the frame.
@@ -21,30 +21,28 @@ pub fn margins_json(scene: &Scene, margins: &Margins) -> String {
 
 /// Returns the value of the key `margins`.
 pub(super) fn margins_of<'a>(scene: &'a Scene, found: &'a Margins) -> Json<'a> {
-    let moving = |margin: &Margin| match margin {
-        Margin::Value { mechanism, .. } => motions(scene, mechanism),
+    let beyond = |end: Option<&End>| match end {
+        Some(End::At { mechanism, .. }) => motions(scene, mechanism),
         _ => Json::List(Vec::new()),
     };
-    object! {
-        friction: end(&found.friction),
-        tilt: sides(&found.tilt, end).unless_empty(),
-        horizontal_load: sides(&found.horizontal_load, end).unless_empty(),
-        kernel: end(&found.kernel),
-        load_factor: end(&found.load_factor),
-        robots: robots(scene, found, |margin| Json::or_null(end(margin))),
-        intervals: parameters(scene, &found.intervals, interval),
-        excluded: parameters(scene, &found.intervals, |interval| excluded(scene, interval)).unless_empty(),
-        notes: Json::list(&found.intervals.notes).unless_empty(),
-        mechanisms: object! {
-            friction: moving(&found.friction),
-            tilt: sides(&found.tilt, moving),
-            horizontal_load: sides(&found.horizontal_load, moving),
-            kernel: moving(&found.kernel),
-            load_factor: moving(&found.load_factor),
-            robots: robots(scene, found, moving),
-            intervals: mechanisms(scene, &found.intervals),
-        },
-    }
+    let robots = |read: &dyn Fn(Option<&End>) -> Json<'a>| of_robots(scene, found, |interval| read(interval.low()));
+    let own = MarginKind::of_frame().map(|kind| (kind.word(), margin(found, kind)));
+    let mechanisms = MarginKind::of_frame().map(|kind| (kind.word(), ends(found, kind, |end, _| beyond(end))));
+    // Where the loads change, both ends of the interval have a motion.
+    let both = MarginKind::of_frame().filter(|kind| kind.changes_loads()).map(|kind| {
+        let interval = found.of(kind).filter(|interval| interval.low().is_some());
+        (kind.word(), interval.map(|interval| [beyond(interval.low()), beyond(interval.high())]).into())
+    });
+    Json::object(own).and(object! {
+        robots: robots(&|end| value(end, 1.0)),
+        intervals: each(scene, found, interval),
+        excluded: each(scene, found, |interval| excluded(scene, interval)).unless_empty(),
+        notes: Json::list(&found.notes).unless_empty(),
+        mechanisms: Json::object(mechanisms).and(object! {
+            robots: robots(&beyond),
+            intervals: Json::object(both),
+        }),
+    })
 }
 
 /// Returns the value of the key `cases` for one load case.
@@ -53,26 +51,38 @@ pub(super) fn case(case: &CaseResult) -> Json<'_> {
     object! {
         id: &case.id,
         verdict: case.verdict.word(),
-        load_factor: margins.map(|margins| end(&margins.load_factor)),
-        tilt: margins.map(|margins| sides(&margins.tilt, end).unless_empty()),
+        load_factor: margins.map(|margins| margin(margins, MarginKind::LoadFactor)),
+        tilt: margins.map(|margins| margin(margins, MarginKind::Tilt)),
+    }
+}
+
+/// Returns the margin of a kind; absent if it was not requested.
+fn margin<'a>(found: &Margins, kind: MarginKind) -> Json<'a> {
+    if found.kinds.has(kind) { ends(found, kind, value) } else { Json::Absent }
+}
+
+/// Describes the ends of the interval of a kind that are margins: one, or one to the left and one to the right. `described`
+/// also gets the sign of the margin: −1 to the left, otherwise 1.
+fn ends<'a>(found: &Margins, kind: MarginKind, described: impl Fn(Option<&End>, f64) -> Json<'a>) -> Json<'a> {
+    let end = |end: usize, sign: f64| described(found.end(kind, end), sign);
+    match kind.about().ends {
+        [true, true] => object! { left: end(0, -1.0), right: end(1, 1.0) },
+        [_, is_upper] => end(usize::from(is_upper), 1.0),
     }
 }
 
 /// Computes a value for each parameter from its interval. Parameters and robots without values are left out.
-fn parameters<'a>(scene: &'a Scene, found: &'a Intervals, value: impl Fn(&'a Interval) -> Json<'a>) -> Json<'a> {
-    let of = |interval: &'a Option<Interval>| interval.as_ref().map(&value);
-    let robots = found.robots.iter().map(|robot| {
-        let limits = object! { fx: value(&robot.fx), fy: value(&robot.fy), torque: value(&robot.torque) };
-        (scene.robots[robot.robot.0].id.as_str(), limits.unless_empty())
-    });
-    object! {
-        friction: of(&found.friction),
-        tilt: of(&found.tilt),
-        horizontal_load: of(&found.horizontal_load),
-        kernel: of(&found.kernel),
-        load_factor: of(&found.load_factor),
-        robots: Json::object(robots).unless_empty(),
-    }
+fn each<'a>(scene: &'a Scene, found: &'a Margins, value: impl Fn(&Interval) -> Json<'a>) -> Json<'a> {
+    let own = MarginKind::of_frame().map(|kind| (kind.word(), found.of(kind).map(&value).into()));
+    Json::object(own).and(object! { robots: of_robots(scene, found, value).unless_empty() })
+}
+
+/// Computes a value for each limit of each robot from its interval.
+fn of_robots<'a>(scene: &'a Scene, found: &Margins, value: impl Fn(&Interval) -> Json<'a>) -> Json<'a> {
+    Json::object(found.robots().map(|(robot, limits)| {
+        let [fx, fy, torque] = limits.map(&value);
+        (scene.robots[robot.0].id.as_str(), object! { fx: fx, fy: fy, torque: torque }.unless_empty())
+    }))
 }
 
 /// Returns the motions that together exclude all values of a parameter, if its interval is empty. Each excludes the
@@ -86,23 +96,6 @@ fn excluded<'a>(scene: &'a Scene, interval: &Interval) -> Json<'a> {
             mechanism: motions(scene, &excluded.mechanism),
         }
     }))
-}
-
-/// Returns how the blocks begin to move just beyond both ends of each interval, the lower end first.
-fn mechanisms<'a>(scene: &'a Scene, found: &Intervals) -> Json<'a> {
-    let moving = |end: &End| match end {
-        End::At { mechanism, .. } => motions(scene, mechanism),
-        _ => Json::List(Vec::new()),
-    };
-    let both = |interval: &Option<Interval>| {
-        let interval = interval.as_ref()?;
-        Some([moving(interval.low()?), moving(interval.high()?)])
-    };
-    object! {
-        tilt: both(&found.tilt),
-        horizontal_load: both(&found.horizontal_load),
-        load_factor: both(&found.load_factor),
-    }
 }
 
 /// Returns an interval: two ends, `null` if it is empty, or a word if no verdict confirms it.
@@ -120,26 +113,11 @@ fn interval<'a>(interval: &Interval) -> Json<'a> {
     }
 }
 
-fn end<'a>(margin: &Margin) -> Json<'a> {
-    match margin {
-        Margin::Value { at, .. } => Json::Number(*at),
-        Margin::None | Margin::NotApplicable | Margin::Undecided | Margin::Unconfirmed { .. } => Json::Null,
-        Margin::NotAsked => Json::Absent,
-        Margin::Unbounded => "unbounded".into(),
+/// Returns the value of a margin, times its sign.
+fn value<'a>(end: Option<&End>, sign: f64) -> Json<'a> {
+    match end {
+        Some(End::At { value, .. }) => Json::Number(sign * value),
+        Some(End::Unbounded) => "unbounded".into(),
+        _ => Json::Null,
     }
-}
-
-fn sides<'a>(of: &Sides, described: impl Fn(&Margin) -> Json<'a>) -> Json<'a> {
-    object! { left: described(&of.left), right: described(&of.right) }
-}
-
-fn robots<'a>(scene: &'a Scene, found: &Margins, described: impl Fn(&Margin) -> Json<'a>) -> Json<'a> {
-    Json::object(found.robots.iter().map(|robot| {
-        let limits = object! {
-            fx: described(&robot.fx),
-            fy: described(&robot.fy),
-            torque: described(&robot.torque),
-        };
-        (scene.robots[robot.robot.0].id.as_str(), limits)
-    }))
 }

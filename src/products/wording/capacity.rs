@@ -1,8 +1,8 @@
 //! Describes in words which forces can act on a block without a collapse.
 
-use super::margin::Parameter;
+use super::margin;
 use super::number::{place_beyond, quantity};
-use crate::mechanics::analysis::{CapacityShape, Cases, FALLS, LoadCapacity, STANDS, Verdict};
+use crate::mechanics::analysis::{CapacityShape, Cases, FALLS, LoadCapacity, MarginKind, STANDS, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::text;
 
@@ -65,12 +65,12 @@ pub fn place(scene: &Scene, capacity: &LoadCapacity) -> String {
 /// without ranges.
 fn for_all(ranges: &Cases) -> String {
     let parts = [
-        (Parameter::Tilt, "tilt", ranges.tilt),
-        (Parameter::HorizontalLoad, "horizontal load", ranges.horizontal_load),
-        (Parameter::Friction, "friction coefficient", ranges.friction),
+        (MarginKind::Tilt, "tilt", ranges.tilt),
+        (MarginKind::HorizontalLoad, "horizontal load", ranges.horizontal_load),
+        (MarginKind::Friction, "friction coefficient", ranges.friction),
     ];
-    let range = |(parameter, name, range): (Parameter, &str, Option<[f64; 2]>)| {
-        let [low, high] = range?.map(|value| parameter.value(value));
+    let range = |(kind, name, range): (MarginKind, &str, Option<[f64; 2]>)| {
+        let [low, high] = range?.map(|value| margin::value(kind, value));
         Some(if low == high { format!("{name} of {low}") } else { format!("{name} from {low} to {high}") })
     };
     let parts: Vec<String> = parts.into_iter().filter_map(range).collect();

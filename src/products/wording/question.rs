@@ -42,13 +42,14 @@ pub fn case_lines(found: &FrameAnalysis) -> Vec<String> {
 /// Returns the verdict of a case in words, with its load factor or its tilt if they were computed.
 pub fn case_verdict(case: &CaseResult) -> String {
     let words = case.verdict.plain();
+    use MarginKind::{LoadFactor, Tilt};
     let Some(margins) = case.margins.as_ref().filter(|_| case.verdict == Verdict::Stable) else {
         return words.to_owned();
     };
-    match (margins.load_factor.at(), margins.tilt.left.at(), margins.tilt.right.at()) {
+    match (margins.most(LoadFactor), margins.least(Tilt), margins.most(Tilt)) {
         (Some(factor), ..) => format!("{words}, carries its loads times {}", three_down(factor)),
         (None, Some(left), Some(right)) => {
-            format!("{words}, falls at {}° to the left, {}° to the right", three_down(left), three_down(right))
+            format!("{words}, falls at {}° to the left, {}° to the right", three_down(-left), three_down(right))
         }
         _ => words.to_owned(),
     }

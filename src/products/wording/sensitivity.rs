@@ -241,14 +241,7 @@ pub fn toward(direction: Vector) -> String {
 /// Returns the name of the quantity that a margin limits, such as `tilt`. Only the load factor has two names: `load
 /// factor` for the upper end of the interval, and `least load factor` for the lower. [`end_name`] names the end itself.
 pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
-    match (kind, is_high) {
-        (MarginKind::Friction, _) => "least friction",
-        (MarginKind::Tilt, _) => "tilt",
-        (MarginKind::HorizontalLoad, _) => "horizontal share",
-        (MarginKind::Kernel, _) => "largest kernel",
-        (MarginKind::LoadFactor, false) => "least load factor",
-        _ => "load factor",
-    }
+    kind.about().limited[usize::from(is_high)]
 }
 
 /// Writes the value of a margin with three significant digits. For tilt and horizontal load, a word replaces the sign:
@@ -257,23 +250,16 @@ pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
 pub fn value(kind: MarginKind, value: f64) -> String {
     // Values below this are rounding errors.
     let value = if value.abs() < 1e-12 { 0.0 } else { value };
-    let side = side(value);
-    match kind {
-        MarginKind::Tilt => format!("{}°{side}", three(value.abs())),
-        MarginKind::HorizontalLoad => format!("{}{side}", three(value.abs())),
-        _ => three(value),
-    }
+    let side = if kind.is_signed() { side(value) } else { "" };
+    let size = if kind.is_signed() { value.abs() } else { value };
+    format!("{}{}{side}", three(size), kind.about().unit)
 }
 
 /// Names an end of the interval of a margin: `upper` or `lower`, for tilts and horizontal loads `right` or `left`.
 /// `right` is the upper end, because tilts and horizontal loads to the right are positive.
 pub fn end_name(kind: MarginKind, is_high: bool) -> &'static str {
-    match (kind, is_high) {
-        (MarginKind::Tilt | MarginKind::HorizontalLoad, true) => "right",
-        (MarginKind::Tilt | MarginKind::HorizontalLoad, false) => "left",
-        (_, true) => "upper",
-        (_, false) => "lower",
-    }
+    let [low, high] = if kind.is_signed() { ["left", "right"] } else { ["lower", "upper"] };
+    if is_high { high } else { low }
 }
 
 /// Returns lines of text that describe, for each end of a margin, the most effective changes.

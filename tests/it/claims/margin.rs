@@ -1,7 +1,7 @@
 //! The statements about the margins of a structure.
 
 use drystone::Analysis;
-use drystone::analysis::{MarginKind, MarginKinds, Options, Toward, Verdict};
+use drystone::analysis::{MarginKind, MarginKinds, Options, Verdict};
 use drystone::figure::{self, Kind};
 use drystone::output::svg;
 use serde_json::{Value, json};
@@ -125,7 +125,7 @@ fn the_figure_of_a_margin_states_the_interval_of_the_result() {
         let frame = &checked.json["frames"][0];
         let interval = &frame["margins"]["intervals"]["load_factor"];
         let analysis = Analysis::with(scene(&file), &options);
-        let figure_options = figure::Options::default().toward(Toward::LoadFactor);
+        let figure_options = figure::Options::default().toward(MarginKind::LoadFactor);
         let svg = svg::write(&figure::draw(&analysis, Kind::Margin, &figure_options));
         let document = roxmltree::Document::parse(&svg).expect("XML");
         let parts = document.descendants().filter(|n| n.has_tag_name("text"));

@@ -2,7 +2,7 @@
 
 use dashu_ratio::RBig;
 use drystone::Scene;
-use drystone::analysis::{Interval, Intervals};
+use drystone::analysis::{Interval, MarginKind, Margins};
 use serde_json::{Value, json};
 
 use super::read;
@@ -61,7 +61,7 @@ pub(super) fn check_linear(
     name: &str,
     file: &Value,
     growing: Growing,
-    found: &Option<Interval>,
+    found: Option<&Interval>,
     problems: &mut Problems,
 ) {
     compare(name, found, exact_interval(file, growing), NONE, problems);
@@ -73,7 +73,7 @@ pub(super) const NONE: f64 = 1e-7;
 /// Compares an interval with the exact interval. An end up to `none` counts as 0.
 pub(super) fn compare(
     name: &str,
-    found: &Option<Interval>,
+    found: Option<&Interval>,
     exact: Option<[f64; 2]>,
     none: f64,
     problems: &mut Problems,
@@ -146,9 +146,9 @@ const RELATIVE_TOL: f64 = 1e-6;
 /// verdicts are accurate to this fraction of the loads.
 const ABSOLUTE_TOL: f64 = 1e-7;
 
-pub(super) fn check_friction(file: &Value, found: &Intervals, problems: &mut Problems) {
+pub(super) fn check_friction(file: &Value, found: &Margins, problems: &mut Problems) {
     let at = |mu: f64| with(file, "friction", mu);
-    let interval = found.friction.as_ref().expect("requested");
+    let interval = found.of(MarginKind::Friction).expect("requested");
     match read(interval) {
         Err(withheld) => problems.push(format!("friction withheld: {withheld}")),
         Ok(None) => expect("friction none", &at(1000.0), false, problems),
@@ -162,9 +162,9 @@ pub(super) fn check_friction(file: &Value, found: &Intervals, problems: &mut Pro
     }
 }
 
-pub(super) fn check_kernel(file: &Value, found: &Intervals, problems: &mut Problems) {
+pub(super) fn check_kernel(file: &Value, found: &Margins, problems: &mut Problems) {
     let at = |kernel: f64| with(file, "kernel", kernel);
-    match read(found.kernel.as_ref().expect("requested")) {
+    match read(found.of(MarginKind::Kernel).expect("requested")) {
         Err(withheld) => problems.push(format!("kernel withheld: {withheld}")),
         Ok(None) => expect("kernel none", &at(0.0), false, problems),
         Ok(Some([_, high])) if high.is_infinite() => expect("kernel endless", &at(1.0), true, problems),
@@ -181,9 +181,9 @@ pub(super) fn check_kernel(file: &Value, found: &Intervals, problems: &mut Probl
     }
 }
 
-pub(super) fn check_tilt(file: &Value, found: &Intervals, chance: &mut Random, problems: &mut Problems) {
+pub(super) fn check_tilt(file: &Value, found: &Margins, chance: &mut Random, problems: &mut Problems) {
     const OFF: f64 = 1e-4;
-    match read(found.tilt.as_ref().expect("requested")) {
+    match read(found.of(MarginKind::Tilt).expect("requested")) {
         Err(withheld) => problems.push(format!("tilt withheld: {withheld}")),
         Ok(None) => {
             for _ in 0..12 {
@@ -226,12 +226,12 @@ pub(super) fn check_tilt(file: &Value, found: &Intervals, chance: &mut Random, p
     }
 }
 
-pub(super) fn check_robots(file: &Value, found: &Intervals, problems: &mut Problems) {
-    for robot in &found.robots {
-        for (key, interval) in [("fx", &robot.fx), ("fy", &robot.fy), ("torque", &robot.torque)] {
+pub(super) fn check_robots(file: &Value, found: &Margins, problems: &mut Problems) {
+    for (robot, limits) in found.robots() {
+        for (key, interval) in ["fx", "fy", "torque"].into_iter().zip(limits) {
             let at = |limit: f64| {
                 let mut changed = file.clone();
-                let limits = &mut changed["robots"][robot.robot.0]["limits"];
+                let limits = &mut changed["robots"][robot.0]["limits"];
                 limits[key] = json!(limit);
                 changed
             };

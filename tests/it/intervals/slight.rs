@@ -4,7 +4,7 @@
 //! the exact interval of the original scene gives that of the changed scene.
 
 use drystone::Scene;
-use drystone::analysis::{End, Interval};
+use drystone::analysis::{End, Interval, MarginKind};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -39,7 +39,7 @@ const ROUNDING: f64 = 1e-12;
 fn compare_safely(
     name: &str,
     file: &Value,
-    found: &Option<Interval>,
+    found: Option<&Interval>,
     exact: Option<[f64; 2]>,
     [none, rounding]: [f64; 2],
     now: f64,
@@ -78,7 +78,7 @@ fn problems(number: u64) -> Vec<String> {
     let by = libm::ldexp(1.0, power);
     let file = scaled(&given, by);
     let scene = Scene::from_json(&file.to_string()).expect("sound");
-    let found = analysed(&scene).intervals;
+    let found = analysed(&scene);
     let mut problems = Problems { has_band: true, ..Problems::default() };
     if !scene.loads().is_empty() {
         // The exact ends of the changed scene.
@@ -87,10 +87,10 @@ fn problems(number: u64) -> Vec<String> {
         let exact = exact.map(|ends| ends.map(ordinary));
         // The weights are up to 36 times the original loads.
         let band = [36.0 * NONE / by, ROUNDING / by];
-        let wrong = compare_safely("load factor", &file, &found.load_factor, exact, band, 1.0);
+        let wrong = compare_safely("load factor", &file, found.of(MarginKind::LoadFactor), exact, band, 1.0);
         problems.list.extend(wrong);
     }
-    let (across, share) = (Growing::AcrossGravity, &found.horizontal_load);
+    let (across, share) = (Growing::AcrossGravity, found.of(MarginKind::HorizontalLoad));
     // If the weights are far below the loads, the error is relative to the loads.
     let exact = exact_interval(&file, across);
     let band = if by > 1.0 { [NONE * by, ROUNDING * by] } else { [NONE; 2] };
@@ -136,13 +136,14 @@ fn loads_far_larger_or_smaller_than_weights_leave_the_other_margins_exact() {
 #[test]
 fn the_load_factor_of_a_tiny_counterweight_is_found() {
     let (file, margins) = known("plank");
-    let ordinary = margins.intervals.load_factor.expect("there is a load");
+    let ordinary = margins.of(MarginKind::LoadFactor).expect("there is a load");
     let low = ordinary.low().and_then(|end| end.value()).expect("it needs a counterweight");
     for by in [1e-5, 1e-9, 1e-12] {
         let file = scaled(&file, by);
         let scene = Scene::from_json(&file.to_string()).expect("sound");
-        let found = analysed(&scene).intervals.load_factor;
+        let margins = analysed(&scene);
+        let found = margins.of(MarginKind::LoadFactor);
         assert!(matches!(found, Some(Interval::Between { .. })), "{by}: {found:?}");
-        near(super::ends(&found), [low / by, f64::INFINITY]);
+        near(super::ends(found), [low / by, f64::INFINITY]);
     }
 }

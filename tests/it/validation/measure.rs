@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use drystone::Analysis;
-use drystone::analysis::{FrameAnalysis, Margin, MarginKind, MarginKinds, Margins, Options, Verdict};
+use drystone::analysis::{FrameAnalysis, MarginKind, MarginKinds, Options, Verdict};
 use serde_json::Value;
 
 use crate::structure::scene;
@@ -13,29 +13,27 @@ pub fn frame(file: &Value) -> Arc<FrameAnalysis> {
     Analysis::new(scene(file)).frames.remove(0)
 }
 
-fn margins(file: &Value, kind: MarginKind) -> Margins {
+/// The lower and the upper end of the interval of a parameter.
+fn ends(file: &Value, kind: MarginKind) -> [f64; 2] {
     let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[kind]));
     let frames = Analysis::with(scene(file), &options).frames;
-    frames[0].margins.clone().expect("margins were requested")
-}
-
-fn at(margin: &Margin) -> f64 {
-    margin.at().unwrap_or_else(|| panic!("{margin:?}"))
+    let margins = frames[0].margins.as_ref().expect("margins were requested");
+    [margins.least(kind), margins.most(kind)].map(|end| end.unwrap_or(f64::NAN))
 }
 
 /// The least friction coefficient.
 pub fn friction(file: &Value) -> f64 {
-    at(&margins(file, MarginKind::Friction).friction)
+    ends(file, MarginKind::Friction)[0]
 }
 
 /// The largest tilt to the right, degrees.
 pub fn tilt(file: &Value) -> f64 {
-    at(&margins(file, MarginKind::Tilt).tilt.right)
+    ends(file, MarginKind::Tilt)[1]
 }
 
 /// The largest horizontal load to the right, as a fraction of the weights.
 pub fn horizontal(file: &Value) -> f64 {
-    at(&margins(file, MarginKind::HorizontalLoad).horizontal_load.right)
+    ends(file, MarginKind::HorizontalLoad)[1]
 }
 
 /// 1 if the first frame stands only by wedging, otherwise 0.

@@ -10,9 +10,8 @@
 
 use std::cmp::Ordering;
 
-use super::kind::MarginKind;
+use crate::mechanics::analysis::Verdict;
 use crate::mechanics::proof::Motion;
-use crate::mechanics::scene::RobotId;
 
 /// The values of one parameter at which a frame stands. Both ends belong to the interval.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +56,7 @@ pub enum End {
 impl End {
     /// Creates an end at the first or last possible value of a parameter, such as friction 0. The structure stands
     /// there, so the end has no mechanism.
-    pub(super) fn natural(value: f64) -> End {
+    pub(super) const fn natural(value: f64) -> End {
         End::At { value, mechanism: Vec::new() }
     }
 
@@ -91,6 +90,19 @@ pub(super) const ROUNDING_TOL: f64 = 1e-9;
 impl Interval {
     /// All values.
     pub(super) const UNBOUNDED: Interval = Interval::Between { low: End::Unbounded, high: End::Unbounded };
+
+    /// All values that are at least 0.
+    pub(super) const FROM_ZERO: Interval = Interval::Between { low: End::natural(0.0), high: End::Unbounded };
+
+    /// Returns the interval of a parameter that does not change the verdict: `all` values if the frame stands, none if it
+    /// falls by this motion.
+    pub(super) fn of_verdict(verdict: Verdict, motion: &[Motion], all: Interval) -> Interval {
+        match verdict {
+            Verdict::Stable => all,
+            Verdict::Unstable => Interval::excluded_by(motion.to_vec()),
+            Verdict::Undecided => Interval::Undecided,
+        }
+    }
 
     /// Returns an empty interval: the frame falls by this motion at every value.
     pub(super) fn excluded_by(mechanism: Vec<Motion>) -> Interval {
@@ -168,58 +180,6 @@ impl Interval {
             _ => Interval::Undecided,
         }
     }
-}
-
-/// The values of each parameter at which a frame stands. `None` if they were not requested, or if the parameter has
-/// no meaning in the scene.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct Intervals {
-    /// The friction coefficient, the same at every interface. The interval has no upper end.
-    pub friction: Option<Interval>,
-    /// The rotation of gravity in degrees. It is positive if the tip of the gravity vector moves to the right. Listed
-    /// loads do not rotate.
-    pub tilt: Option<Interval>,
-    /// The fraction of each weight that acts at right angles to gravity, in addition to the weight; negative to the
-    /// left.
-    pub horizontal_load: Option<Interval>,
-    /// The safety kernel, from 0 upwards. The upper end is unbounded if the frame stands with a kernel of 1.
-    pub kernel: Option<Interval>,
-    /// The factor on the listed loads, at least 0; `None` in a frame without listed loads.
-    pub load_factor: Option<Interval>,
-    /// The limits of each robot that holds a block, in the order of the frame's holds.
-    pub robots: Vec<RobotIntervals>,
-    /// Remarks about the intervals, one sentence each.
-    pub notes: Vec<String>,
-}
-
-impl Intervals {
-    /// Returns the interval of the parameter of a margin. `None` if it was not requested, if it has no meaning in the
-    /// scene, or for [`MarginKind::Robots`].
-    pub fn of(&self, kind: MarginKind) -> Option<&Interval> {
-        match kind {
-            MarginKind::Friction => self.friction.as_ref(),
-            MarginKind::Tilt => self.tilt.as_ref(),
-            MarginKind::HorizontalLoad => self.horizontal_load.as_ref(),
-            MarginKind::Kernel => self.kernel.as_ref(),
-            MarginKind::LoadFactor => self.load_factor.as_ref(),
-            MarginKind::Robots => None,
-        }
-    }
-}
-
-/// The values of each limit of a robot at which a frame stands, while all other limits are as in the scene.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct RobotIntervals {
-    /// The robot.
-    pub robot: RobotId,
-    /// The limit of its horizontal force, N.
-    pub fx: Interval,
-    /// The limit of its vertical force, N.
-    pub fy: Interval,
-    /// The limit of its torque, N·m.
-    pub torque: Interval,
 }
 
 /// The values of a parameter at which a frame falls by one motion. An end is `None` if the range is unbounded there.

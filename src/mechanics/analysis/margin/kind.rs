@@ -1,25 +1,198 @@
 //! [`MarginKind`]: a kind of margin, such as friction or tilt. [`MarginKinds`]: a set of kinds, such as the requested
 //! margins.
+//!
+//! [`About`] declares all that distinguishes a kind: its words, its unit, and how it changes a component. A further kind
+//! needs a name in [`MarginKind`] and its declaration in [`ABOUT`].
 
+use super::path::{Path, Predictor};
+use super::trial::{Setting, Trial};
 use crate::text::Word;
 
-/// A kind of margin. Tilt and horizontal load have one margin to each side, and robots have one margin for each limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A kind of margin: the parameter that is varied, alone, until the frame falls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MarginKind {
-    /// [`Margins::friction`](super::Margins::friction).
+    /// The friction coefficient, the same at every interface, from 0 to [`MarginKind::MAX_FRICTION`]. Its interval has no
+    /// upper end. The margin is the lower end, 0 if the frame needs no friction.
     Friction,
-    /// [`Margins::tilt`](super::Margins::tilt), to both sides.
+    /// The rotation of gravity in degrees. It is positive if the tip of the gravity vector moves to the right. Listed
+    /// loads do not rotate. Both ends are margins.
+    #[default]
     Tilt,
-    /// [`Margins::horizontal_load`](super::Margins::horizontal_load), to both sides.
+    /// The fraction of each weight that acts at right angles to gravity, in addition to the weight; negative to the
+    /// left. Both ends are margins.
     HorizontalLoad,
-    /// [`Margins::kernel`](super::Margins::kernel).
+    /// The safety kernel, from 0 upwards. The upper end is the margin; it is unbounded if the frame stands with a kernel
+    /// of 1.
     Kernel,
-    /// [`Margins::load_factor`](super::Margins::load_factor).
+    /// The factor on the listed loads, at least 0; 1 means the loads as listed. The upper end is the margin. A frame
+    /// without listed loads has no such interval.
     LoadFactor,
-    /// [`Margins::robots`](super::Margins::robots), every limit of every robot.
+    /// The limits of every robot that holds a block, each varied alone. The lower ends are the margins.
     Robots,
 }
+
+/// What distinguishes a kind of margin from the others. A pair of texts belongs to the lower and the upper end of the
+/// interval.
+pub(crate) struct About {
+    /// The name in results, and with hyphens.
+    pub words: [&'static str; 2],
+    /// The parameter in a sentence.
+    pub name: &'static str,
+    /// The unit that is written after a value.
+    pub unit: &'static str,
+    /// The ends as a notice names them.
+    pub notice: [&'static str; 2],
+    /// The quantities that the ends limit, for sensitivities.
+    pub limited: [&'static str; 2],
+    /// The meaning of its keys in results: the margin, the interval, the exclusions, and the motions beyond the margin.
+    pub keys: [&'static str; 4],
+    /// The condition for its interval in results.
+    pub condition: &'static str,
+    /// A value of the parameter: what the collapse at the margin happens at.
+    pub at: &'static str,
+    /// Whether the lower and the upper end are margins. Both are if values may be negative: then the margins lie to the
+    /// left and to the right of 0.
+    pub ends: [bool; 2],
+    /// The present value; `None` if it depends on the scene.
+    pub present: Option<f64>,
+    /// Whether the parameter has a meaning for a component; `None` if it has one for every component.
+    pub(super) applies: Option<fn(&Trial) -> bool>,
+    /// The change of a component for a value of the parameter.
+    pub(in crate::mechanics::analysis) setting: fn(f64) -> Setting,
+    /// The loads that the parameter adds per unit, at a value; `None` if the loads do not depend on it.
+    pub(in crate::mechanics::analysis) growth: Option<fn(f64) -> Setting>,
+    /// How a component changes with the parameter.
+    path: fn(&Trial, fn(f64) -> Setting) -> Path<'static>,
+}
+
+impl About {
+    const PLAIN: About = About {
+        words: [""; 2],
+        name: "",
+        unit: "",
+        notice: [""; 2],
+        limited: [""; 2],
+        keys: [""; 4],
+        condition: "if requested",
+        at: "",
+        ends: [true; 2],
+        present: None,
+        applies: None,
+        setting: |_| Setting::default(),
+        growth: None,
+        path: |_, setting| Path::new(Predictor::Plane, setting),
+    };
+}
+
+/// The declarations of all kinds, in the order of [`MarginKind::ALL`].
+static ABOUT: [About; MarginKind::ALL.len()] = [
+    About {
+        words: ["friction", "friction"],
+        name: "friction coefficient",
+        notice: ["the least friction", "the largest friction"],
+        limited: ["least friction"; 2],
+        keys: [
+            "least friction coefficient, the same at all interfaces",
+            "friction coefficient, the same at all interfaces, from 0 to 1000",
+            "they exclude all coefficients up to 1000, the largest that is tried",
+            "just below the least friction coefficient",
+        ],
+        at: "this friction",
+        ends: [true, false],
+        setting: |mu| Setting { friction: Some(mu), ..Setting::default() },
+        path: |_, setting| Path::threshold(MarginKind::MAX_FRICTION, setting),
+        ..About::PLAIN
+    },
+    About {
+        words: ["tilt", "tilt"],
+        name: "tilt of gravity",
+        unit: "°",
+        notice: ["the largest tilt in degrees to the left", "the largest tilt in degrees to the right"],
+        limited: ["tilt"; 2],
+        keys: [
+            "largest turns of gravity at which the frame stands; each is null if it falls without a turn",
+            "tilt of gravity, negative to the left; loads do not tilt",
+            "they exclude all turns of gravity; the ranges cover a full turn",
+            "just beyond the largest tilts",
+        ],
+        at: "this tilt",
+        present: Some(0.0),
+        setting: |degrees| Setting::tilted(degrees, 1.0),
+        // Gravity grows across its direction.
+        growth: Some(|degrees| {
+            let Setting { along, across, .. } = Setting::tilted(degrees + 90.0, 1_f64.to_radians());
+            Setting { along, across, ..Setting::UNLOADED }
+        }),
+        path: |_, setting| Path { min_value: f64::NEG_INFINITY, ..Path::new(Predictor::Arc, setting) },
+        ..About::PLAIN
+    },
+    About {
+        words: ["horizontal_load", "horizontal-load"],
+        name: "horizontal load, as a share of the weights",
+        notice: ["the largest horizontal share to the left", "the largest horizontal share to the right"],
+        limited: ["horizontal share"; 2],
+        keys: [
+            "largest horizontal force on every block, as a share of its weight",
+            "horizontal force on every block as a share of its weight, negative to the left",
+            "they exclude all values",
+            "just beyond the largest horizontal loads",
+        ],
+        at: "this push",
+        present: Some(0.0),
+        setting: |across| Setting { across, ..Setting::default() },
+        growth: Some(|_| Setting { across: 1.0, ..Setting::UNLOADED }),
+        path: |trial, setting| {
+            let load_ratio = 1.0 / trial.weights_to_loads();
+            let typical_large = load_ratio.max(1.0);
+            Path { min_value: f64::NEG_INFINITY, typical_large, load_ratio, ..Path::new(Predictor::Plane, setting) }
+        },
+        ..About::PLAIN
+    },
+    About {
+        words: ["kernel", "kernel"],
+        name: "safety kernel",
+        notice: ["the least kernel", "the largest kernel"],
+        limited: ["largest kernel"; 2],
+        keys: [
+            "largest kernel",
+            "kernel, from 0 to 1; without an upper end if the frame stands at 1",
+            "they exclude all values",
+            "just beyond the largest kernel",
+        ],
+        at: "this kernel",
+        ends: [false, true],
+        setting: |kernel| Setting { kernel: Some(kernel), ..Setting::default() },
+        path: |_, setting| Path::threshold(1.0, setting),
+        ..About::PLAIN
+    },
+    About {
+        words: ["load_factor", "load-factor"],
+        name: "factor on the loads",
+        notice: ["the least factor on the loads", "the largest factor on the loads"],
+        limited: ["least load factor", "load factor"],
+        keys: [
+            "largest factor on the loads; null also without loads",
+            "factor on the loads, at least 0; 1 stands for the loads of the scene",
+            "they exclude all values",
+            "just beyond the largest factor on the loads",
+        ],
+        condition: "if requested, with loads",
+        at: "this load",
+        ends: [false, true],
+        present: Some(1.0),
+        applies: Some(|trial| trial.has_factored_loads()),
+        setting: |loads| Setting { loads, ..Setting::default() },
+        growth: Some(|_| Setting { loads: 1.0, ..Setting::UNLOADED }),
+        path: |trial, setting| {
+            let load_ratio = trial.weights_to_loads();
+            let (typical_small, typical_large) = (load_ratio.min(1.0), load_ratio.max(1.0));
+            Path { typical_small, typical_large, load_ratio, ..Path::new(Predictor::Plane, setting) }
+        },
+        ..About::PLAIN
+    },
+    About { words: ["robots", "robots"], at: "this limit", ends: [true, false], ..About::PLAIN },
+];
 
 impl MarginKind {
     /// All margins.
@@ -32,11 +205,40 @@ impl MarginKind {
         MarginKind::Robots,
     ];
 
+    /// The largest friction coefficient that is tried.
+    pub const MAX_FRICTION: f64 = 1e3;
+
+    /// Returns the margins of the whole frame: all but the limits of robots.
+    pub(crate) fn of_frame() -> impl Iterator<Item = MarginKind> {
+        MarginKind::ALL.into_iter().filter(|kind| *kind != MarginKind::Robots)
+    }
+
+    /// Returns the declaration of this kind.
+    pub(crate) const fn about(self) -> &'static About {
+        &ABOUT[self as usize]
+    }
+
+    /// True if a value can be negative. A negative value points to the left.
+    pub(crate) const fn is_signed(self) -> bool {
+        let [low, high] = self.about().ends;
+        low && high
+    }
+
+    /// True if the loads change with the parameter, so that one value after another is a state of the same structure.
+    pub(crate) fn changes_loads(self) -> bool {
+        self.about().growth.is_some()
+    }
+
+    /// Returns how a component changes with the parameter.
+    pub(super) fn path(self, trial: &Trial) -> Path<'static> {
+        let about = self.about();
+        (about.path)(trial, about.setting)
+    }
+
     /// Returns the margin with this name in results; `None` if no margin has this name. A hyphen counts as an
     /// underscore, and capital letters count as small letters.
     pub fn from_word(word: &str) -> Option<MarginKind> {
-        let word = word.replace('-', "_").to_ascii_lowercase();
-        MarginKind::ALL.into_iter().find(|kind| kind.word() == word)
+        Word::from_word(word)
     }
 
     /// True if a sensitivity can be computed for this margin: for every margin except the limits of robots.
@@ -46,14 +248,7 @@ impl MarginKind {
 
     /// Returns the name of this margin in results, such as `load_factor`.
     pub fn word(self) -> &'static str {
-        match self {
-            MarginKind::Friction => "friction",
-            MarginKind::Tilt => "tilt",
-            MarginKind::HorizontalLoad => "horizontal_load",
-            MarginKind::Kernel => "kernel",
-            MarginKind::LoadFactor => "load_factor",
-            MarginKind::Robots => "robots",
-        }
+        self.about().words[0]
     }
 }
 
@@ -64,44 +259,39 @@ impl Word for MarginKind {
     }
 
     fn word(self) -> &'static str {
-        match self {
-            MarginKind::HorizontalLoad => "horizontal-load",
-            MarginKind::LoadFactor => "load-factor",
-            kind => MarginKind::word(kind),
-        }
+        self.about().words[1]
     }
 
     fn alias(self) -> Option<&'static str> {
-        let name = MarginKind::word(self);
-        (name != Word::word(self)).then_some(name)
+        let [name, typed] = self.about().words;
+        (name != typed).then_some(name)
     }
 }
 
 /// A set of margins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MarginKinds {
-    bits: u8,
+    bits: u16,
 }
 
 impl MarginKinds {
     /// The set of all margins.
-    pub const ALL: MarginKinds = MarginKinds { bits: 0b11_1111 };
+    pub const ALL: MarginKinds = MarginKinds { bits: (1 << MarginKind::ALL.len()) - 1 };
 
     /// Creates a set of margins from a list.
     pub fn new(list: &[MarginKind]) -> MarginKinds {
-        let bits = list.iter().fold(0, |bits, kind| bits | bit(*kind));
-        MarginKinds { bits }
+        list.iter().fold(MarginKinds { bits: 0 }, |set, kind| set.with(*kind))
     }
 
     /// Returns this set with one margin added.
     #[must_use]
     pub fn with(self, kind: MarginKind) -> MarginKinds {
-        MarginKinds { bits: self.bits | bit(kind) }
+        MarginKinds { bits: self.bits | 1 << kind as u16 }
     }
 
     /// True if the set contains this margin.
     pub fn has(self, kind: MarginKind) -> bool {
-        self.bits & bit(kind) != 0
+        self.bits & 1 << kind as u16 != 0
     }
 }
 
@@ -109,8 +299,4 @@ impl Default for MarginKinds {
     fn default() -> MarginKinds {
         MarginKinds::ALL
     }
-}
-
-fn bit(kind: MarginKind) -> u8 {
-    1 << kind as u8
 }

@@ -11,7 +11,7 @@
 //! one linear program gives the prediction ([`parameter`]); this includes the limits of robots. For friction and kernel,
 //! Newton's method gives it ([`mod@threshold`]).
 //! An end is accepted only if it is proved that the changed frame stands just inside it and falls just beyond it. The
-//! mechanism of an end is the collapse mechanism just beyond it. [`Margins`] are derived from the intervals.
+//! mechanism of an end is the collapse mechanism just beyond it. A margin is an end of such an interval ([`Margins`]).
 
 mod interval;
 mod kind;
@@ -34,12 +34,10 @@ use super::frame::Key;
 use crate::mechanics::solve::{DeadlineGuard, deadline};
 use crate::mechanics::statics::assembly::Assembly;
 pub(super) use interval::END_TOL;
-pub use interval::Exclusion;
-pub use interval::{End, Interval, Intervals, RobotIntervals};
+pub use interval::{End, Exclusion, Interval};
 pub use kind::{MarginKind, MarginKinds};
-pub use margins::{Margin, Margins, RobotMargins, Sides};
+pub use margins::{Margin, Margins};
 pub(super) use parameter::{MAX_ROBOTS, largest_load_factor};
-use path::Path;
 use trial::Trial;
 pub use trial::trials;
 pub(super) use trial::{LimitChange, Setting};
@@ -64,11 +62,7 @@ impl Part<'_> {
     /// Returns the interval for a parameter that does not affect this component: `all` if the component stands, the
     /// empty interval if it falls, otherwise undecided.
     fn at_present(&self, all: Interval) -> Interval {
-        match self.findings.verdict {
-            Verdict::Stable => all,
-            Verdict::Unstable => Interval::excluded_by(self.findings.mechanism.clone()),
-            Verdict::Undecided => Interval::Undecided,
-        }
+        Interval::of_verdict(self.findings.verdict, &self.findings.mechanism, all)
     }
 }
 
@@ -79,34 +73,31 @@ impl Part<'_> {
 /// 2. Intersect them: a frame stands if all its components stand.
 /// 3. If the frame does not stand, search for the tilt nearest to 0 at which it stands. This needs verdicts of the
 ///    whole frame.
-pub(super) fn find_margins(
-    parts: &[Part],
-    kinds: MarginKinds,
-    known: &mut BTreeMap<Key, Intervals>,
-) -> (Margins, usize) {
+pub(super) fn find_margins(parts: &[Part], kinds: MarginKinds, known: &mut BTreeMap<Key, Margins>) -> (Margins, usize) {
     let all_stand = parts.iter().all(Part::stands);
     let has_tilt = kinds.has(MarginKind::Tilt);
     // Step 1.
     let mut decided_count = find_fresh_intervals(parts, kinds, has_tilt && all_stand, known);
-    let components: Vec<(&Part, &Intervals)> =
+    let components: Vec<(&Part, &Margins)> =
         parts.iter().filter_map(|part| Some((part, known.get(part.key)?))).collect();
     // Step 2.
-    let mut intervals = intersect(&components, kinds);
+    let mut margins = intersect(&components, kinds);
     // Step 3.
     if has_tilt && !all_stand {
         let mut trials: Vec<Trial> = parts.iter().map(Part::trial).collect();
-        intervals.tilt = Some(nearest_tilts(&mut trials));
+        let interval = nearest_tilts(&mut trials);
+        margins.each.iter_mut().filter(|m| m.kind == MarginKind::Tilt).for_each(|m| m.interval = interval.clone());
         decided_count += trials.iter().map(|trial| trial.decided_count).sum::<usize>();
     }
     // If loads are listed or a robot has a finite limit, the frame may stand in several separate ranges of tilt. A note
     // then says so.
     let is_cone = |part: &Part| !trial::is_loaded(part.component) && !trial::is_limited(part.component);
-    if let Some(Interval::Between { .. }) = intervals.tilt
+    if let Some(Interval::Between { .. }) = margins.of(MarginKind::Tilt)
         && !components.iter().all(|(part, _)| is_cone(part))
     {
-        intervals.notes.push(ONE_ARC.into());
+        margins.notes.push(ONE_ARC.into());
     }
-    (Margins::new(intervals, kinds), decided_count)
+    (margins, decided_count)
 }
 
 /// Returns the interval of the load factor or of the friction at which an assembly stands.
@@ -115,15 +106,11 @@ pub(super) fn interval_of(assembly: &Assembly, kind: MarginKind) -> Interval {
         let mut trial = Trial::new(&component, None);
         let (verdict, motion) = trial.decide(&Setting::default());
         let stands = verdict == Verdict::Stable;
-        let own = parameter::intervals(&mut trial, stands, MarginKinds::new(&[kind]), false);
+        let own = parameter::margins(&mut trial, stands, MarginKinds::new(&[kind]), false);
         // A component without loads stands at every factor or at none.
-        own.of(kind).cloned().unwrap_or(match verdict {
-            Verdict::Stable => Interval::UNBOUNDED,
-            Verdict::Unstable => Interval::excluded_by(motion),
-            Verdict::Undecided => Interval::Undecided,
-        })
+        own.of(kind).cloned().unwrap_or_else(|| Interval::of_verdict(verdict, &motion, Interval::UNBOUNDED))
     });
-    each.fold(Interval::Between { low: End::natural(0.0), high: End::Unbounded }, Interval::intersection)
+    each.fold(Interval::FROM_ZERO, Interval::intersection)
 }
 
 /// Computes the intervals of the components that are missing in `known`, and adds the intervals to `known`. Returns how
@@ -132,11 +119,11 @@ fn find_fresh_intervals(
     parts: &[Part],
     kinds: MarginKinds,
     with_tilt: bool,
-    known: &mut BTreeMap<Key, Intervals>,
+    known: &mut BTreeMap<Key, Margins>,
 ) -> usize {
     let is_known = |key: &Key| {
         let found = known.get(key);
-        found.is_some_and(|found| found.tilt.is_some() || !with_tilt)
+        found.is_some_and(|found| found.of(MarginKind::Tilt).is_some() || !with_tilt)
     };
     let fresh = parts.iter().filter(|part| !is_known(part.key));
     let fresh: Vec<&Part> = fresh.collect();
@@ -146,17 +133,17 @@ fn find_fresh_intervals(
     let each = fresh.iter();
     // A deadline guard applies only to the thread that creates it, so each task creates one.
     let deadline = deadline();
-    let fresh_intervals: Vec<(Key, Intervals, usize)> = each
+    let fresh_margins: Vec<(Key, Margins, usize)> = each
         .map(|part| {
             let _guard = DeadlineGuard::new(deadline);
             let mut trial = part.trial();
-            let intervals = parameter::intervals(&mut trial, part.stands(), kinds, with_tilt);
-            (part.key.clone(), intervals, trial.decided_count)
+            let margins = parameter::margins(&mut trial, part.stands(), kinds, with_tilt);
+            (part.key.clone(), margins, trial.decided_count)
         })
         .collect();
     let mut decided_count = 0;
-    for (key, intervals, tries) in fresh_intervals {
-        known.insert(key, intervals);
+    for (key, margins, tries) in fresh_margins {
+        known.insert(key, margins);
         decided_count += tries;
     }
     decided_count
@@ -165,7 +152,7 @@ fn find_fresh_intervals(
 /// Returns the interval of tilts at which a frame stands, in degrees, for a frame that does not stand without tilt. If
 /// there are several such intervals, it returns the interval nearest to 0.
 fn nearest_tilts(trials: &mut [Trial]) -> Interval {
-    let Some(path) = trials.first().map(|trial| Path::of(MarginKind::Tilt, trial)) else {
+    let Some(path) = trials.first().map(|trial| MarginKind::Tilt.path(trial)) else {
         return Interval::UNBOUNDED;
     };
     match path.nearest(trials, 0.0, None) {
@@ -177,60 +164,41 @@ fn nearest_tilts(trials: &mut [Trial]) -> Interval {
     }
 }
 
-/// Returns the intervals of a frame, which are the intersections of the intervals of its components.
-fn intersect(components: &[(&Part, &Intervals)], kinds: MarginKinds) -> Intervals {
-    let from_zero = || Interval::Between { low: End::natural(0.0), high: End::Unbounded };
-    let intersection = |kind: MarginKind| {
-        let all = if matches!(kind, MarginKind::Tilt | MarginKind::HorizontalLoad) {
-            Interval::UNBOUNDED
-        } else {
-            from_zero()
-        };
-        // The load factor has a meaning only if some component is loaded. A component without loads stands at every
-        // factor or at none.
-        let is_factor = kind == MarginKind::LoadFactor;
-        let has_meaning = !is_factor || components.iter().any(|(_, own)| own.of(kind).is_some());
+/// Returns the margins of a frame: its intervals are the intersections of the intervals of its components.
+fn intersect(components: &[(&Part, &Margins)], kinds: MarginKinds) -> Margins {
+    let margin = |kind: MarginKind| {
+        let all = || if kind.is_signed() { Interval::UNBOUNDED } else { Interval::FROM_ZERO };
+        // Some parameters have a meaning only for some components. Another component stands at every value or at none.
+        let is_partial = kind.about().applies.is_some();
+        let has_meaning = !is_partial || components.iter().any(|(_, own)| own.of(kind).is_some());
         let each = components.iter().filter_map(|(part, own)| match own.of(kind) {
-            None => is_factor.then(|| part.at_present(from_zero())),
+            None => is_partial.then(|| part.at_present(all())),
             known => known.cloned(),
         });
-        (kinds.has(kind) && has_meaning).then(|| each.fold(all, Interval::intersection))
+        let interval = (kinds.has(kind) && has_meaning).then(|| each.fold(all(), Interval::intersection))?;
+        Some(Margin { kind, limit: None, interval })
     };
-    Intervals {
-        friction: intersection(MarginKind::Friction),
-        tilt: intersection(MarginKind::Tilt),
-        horizontal_load: intersection(MarginKind::HorizontalLoad),
-        kernel: intersection(MarginKind::Kernel),
-        load_factor: intersection(MarginKind::LoadFactor),
-        robots: robots(components),
-        notes: Vec::new(),
-    }
+    let each = MarginKind::of_frame().filter_map(margin).chain(robots(components)).collect();
+    Margins { kinds, each, notes: Vec::new() }
 }
 
 /// The note on the interval of tilts of frames that may stand in several separate ranges of tilt.
 const ONE_ARC: &str = "tilt: listed loads and robots' limits do not turn with gravity, so the frame may stand at other \
                        tilts too; this interval contains 0, or is the nearest one to 0 if the frame falls without tilt";
 
-/// Returns the intervals of the limits of all robots. The intervals of a robot are empty if a component that it does
+/// Returns the margins of the limits of all robots. The intervals of a robot are empty if a component that it does
 /// not hold falls, because no limit of this robot prevents that fall.
-fn robots(components: &[(&Part, &Intervals)]) -> Vec<RobotIntervals> {
+fn robots(components: &[(&Part, &Margins)]) -> Vec<Margin> {
     let mut robots = Vec::new();
-    for (number, (_, intervals)) in components.iter().enumerate() {
-        let others = || components.iter().enumerate().filter(|(k, _)| *k != number);
-        for robot in &intervals.robots {
-            let with_others = |own: &Interval| {
-                others()
-                    .fold(own.clone(), |frame, (_, (part, _))| frame.intersection(part.at_present(Interval::UNBOUNDED)))
-            };
-            robots.push(RobotIntervals {
-                robot: robot.robot,
-                fx: with_others(&robot.fx),
-                fy: with_others(&robot.fy),
-                torque: with_others(&robot.torque),
-            });
+    for (number, (_, own)) in components.iter().enumerate() {
+        for margin in own.each.iter().filter(|margin| margin.limit.is_some()) {
+            let others = components.iter().enumerate().filter(|(k, _)| *k != number);
+            let others = others.map(|(_, (part, _))| part.at_present(Interval::UNBOUNDED));
+            let interval = others.fold(margin.interval.clone(), Interval::intersection);
+            robots.push(Margin { interval, ..margin.clone() });
         }
     }
     // Sort by robot, which is also the order of the holds in a frame.
-    robots.sort_by_key(|robot| robot.robot);
+    robots.sort_by_key(|margin| margin.limit.map(|limit| limit.0));
     robots
 }

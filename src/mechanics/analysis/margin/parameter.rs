@@ -17,8 +17,9 @@
 //! that one verdict does not settle is halved. If k of n limits matter, this takes about k·log₂(n/k) verdicts, and k
 //! searches.
 
-use super::interval::{End, Interval, Intervals, RobotIntervals};
+use super::interval::{End, Interval};
 use super::kind::{MarginKind, MarginKinds};
+use super::margins::{Margin, Margins};
 use super::path::{MAX_VALUE, Path, Predictor};
 use super::search::Bracket;
 use super::threshold::threshold;
@@ -31,37 +32,43 @@ use crate::mechanics::solve::{
 };
 use crate::mechanics::statics::assembly::Assembly;
 
-/// Returns the intervals of all requested parameters of a component. `stands` is true if the unchanged component
-/// stands. `with_tilt` is true if the tilt is requested and the whole frame stands; only then are the tilts around 0
-/// computed.
-pub(super) fn intervals(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_tilt: bool) -> Intervals {
+/// Returns the requested margins of a component. `stands` is true if the unchanged component stands. `with_tilt` is true
+/// if the tilt is requested and the whole frame stands; only then are the tilts around 0 computed.
+pub(super) fn margins(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_tilt: bool) -> Margins {
+    use MarginKind::{HorizontalLoad, Tilt};
     let is_asked = kinds.has(MarginKind::Robots) && trial.holds().len() <= MAX_ROBOTS;
     let robots = if is_asked { robots(trial, stands) } else { Vec::new() };
-    let along = |kind: MarginKind, present: f64, trial: &mut Trial| {
-        let path = Path::of(kind, trial);
-        linear(trial, &path, present, stands)
-    };
+    let mut each = Vec::new();
+    let mut add = |kind: MarginKind, interval: Interval| each.push(Margin { kind, limit: None, interval });
     // The interval of tilts may follow from the horizontal load, so compute the horizontal load if either of the two
     // margins is requested.
-    let is_turned = kinds.has(MarginKind::HorizontalLoad) || kinds.has(MarginKind::Tilt);
-    let horizontal_load = is_turned.then(|| along(MarginKind::HorizontalLoad, 0.0, trial));
-    let tilt = horizontal_load.as_ref().filter(|_| with_tilt);
-    Intervals {
-        tilt: tilt.map(|horizontal| tilts_around_present(trial, horizontal)),
-        friction: kinds.has(MarginKind::Friction).then(|| threshold(trial, MarginKind::Friction, -1.0)),
-        kernel: kinds.has(MarginKind::Kernel).then(|| threshold(trial, MarginKind::Kernel, 1.0)),
-        load_factor: (kinds.has(MarginKind::LoadFactor) && trial.has_factored_loads())
-            .then(|| along(MarginKind::LoadFactor, 1.0, trial)),
-        horizontal_load,
-        robots,
-        notes: Vec::new(),
+    if kinds.has(HorizontalLoad) || kinds.has(Tilt) {
+        let interval = linear(trial, &HorizontalLoad.path(trial), 0.0, stands);
+        if with_tilt {
+            add(Tilt, tilts_around_present(trial, &interval));
+        }
+        add(HorizontalLoad, interval);
     }
+    for kind in MarginKind::of_frame().filter(|kind| kinds.has(*kind) && !kind.is_signed()) {
+        let about = kind.about();
+        if about.applies.is_some_and(|applies| !applies(trial)) {
+            continue;
+        }
+        let path = kind.path(trial);
+        let interval = match about.present {
+            Some(present) if path.predictor == Predictor::Plane => linear(trial, &path, present, stands),
+            _ => threshold(trial, &path, if about.ends[1] { 1.0 } else { -1.0 }),
+        };
+        add(kind, interval);
+    }
+    each.extend(robots);
+    Margins { kinds, each, notes: Vec::new() }
 }
 
 /// Returns the largest load factor with which a component stands. `unloaded` balance it with a load factor of 0.
 pub(in crate::mechanics::analysis) fn largest_load_factor(component: &Assembly, unloaded: &Forces) -> End {
     let mut trial = Trial::new(component, Some(unloaded));
-    let path = Path::of(MarginKind::LoadFactor, &trial);
+    let path = MarginKind::LoadFactor.path(&trial);
     end(&mut trial, &path, 0.0, 1.0, Some(0.0), largest_factor_fast)
 }
 
@@ -95,7 +102,7 @@ fn tilts_around_present(trial: &mut Trial, horizontal: &Interval) -> Interval {
 /// `from`.
 pub(super) fn tilts_around(trial: &mut Trial, from: f64) -> Interval {
     let [low, high] = [-1.0, 1.0].map(|outward| {
-        let whole = Path::of(MarginKind::Tilt, trial);
+        let whole = MarginKind::Tilt.path(trial);
         let to = from + outward * 360.0;
         let path = Path { min_value: from.min(to), max_value: from.max(to), ..whole };
         path.search(trial, Bracket { inside: from, beyond: None }, outward, None)
@@ -230,18 +237,14 @@ pub(in crate::mechanics::analysis) const MAX_ROBOTS: usize = 2000;
 /// The least number of limits that are tried as a group. The three limits of two robots are found sooner one by one.
 const MIN_GROUP: usize = 8;
 
-/// Returns the intervals of the limits of each robot that holds a body, in the order of the grips. `stands` is true if
+/// Returns the margins of the limits of each robot that holds a body, in the order of the grips. `stands` is true if
 /// the component stands with the limits of the scene.
-fn robots(trial: &mut Trial, stands: bool) -> Vec<RobotIntervals> {
+fn robots(trial: &mut Trial, stands: bool) -> Vec<Margin> {
     let robots = trial.holds();
     let mut found = Vec::with_capacity(3 * robots.len());
     group(trial, [0, 3 * robots.len()], stands, &mut found);
-    let mut found = found.into_iter();
-    let of_robot = |robot| {
-        let (fx, fy, torque) = (found.next()?, found.next()?, found.next()?);
-        Some(RobotIntervals { robot, fx, fy, torque })
-    };
-    robots.into_iter().filter_map(of_robot).collect()
+    let margin = |(k, interval)| Margin { kind: MarginKind::Robots, limit: Some((robots[k / 3], k % 3)), interval };
+    found.into_iter().enumerate().map(margin).collect()
 }
 
 /// Computes, for each robot limit with an index in `first..end`, the values of this limit at which the component
@@ -257,7 +260,7 @@ fn group(trial: &mut Trial, [first, end]: [usize; 2], stands: bool, found: &mut 
     let setting = |value: f64| Setting { limits: LimitChange::Replace { first, end, value }, ..Setting::default() };
     let settled = if stands {
         let verdict = trial.decide(&setting(0.0)).0;
-        (verdict == Verdict::Stable).then(|| Interval::Between { low: End::natural(0.0), high: End::Unbounded })
+        (verdict == Verdict::Stable).then_some(Interval::FROM_ZERO)
     } else {
         match trial.decide(&setting(f64::INFINITY)) {
             (Verdict::Unstable, motion) => Some(Interval::excluded_by(motion)),

@@ -8,8 +8,6 @@
 //! themselves.
 
 use super::interval::{END_TOL, ROUNDING_TOL};
-use super::kind::MarginKind;
-use super::margins::Margins;
 use super::trial::{LimitChange, Setting, Trial};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::decide::LimitDistance;
@@ -65,28 +63,9 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// Returns the path of the parameter of a margin, for the component of a trial.
-    pub fn of(kind: MarginKind, trial: &Trial) -> Path<'static> {
-        let of = |predictor| Path::new(predictor, move |value| Setting::at(kind, value));
-        let threshold = |max_value| Path { max_value, typical_large: max_value / MAX_VALUE, ..of(Predictor::Tangent) };
-        let weights_to_loads = trial.weights_to_loads();
-        match kind {
-            MarginKind::Friction => threshold(Margins::MAX_FRICTION),
-            MarginKind::Kernel => threshold(1.0),
-            MarginKind::Tilt => Path { min_value: f64::NEG_INFINITY, ..of(Predictor::Arc) },
-            MarginKind::HorizontalLoad => Path {
-                min_value: f64::NEG_INFINITY,
-                typical_large: (1.0 / weights_to_loads).max(1.0),
-                load_ratio: 1.0 / weights_to_loads,
-                ..of(Predictor::Plane)
-            },
-            MarginKind::LoadFactor | MarginKind::Robots => Path {
-                typical_small: weights_to_loads.min(1.0),
-                typical_large: weights_to_loads.max(1.0),
-                load_ratio: weights_to_loads,
-                ..of(Predictor::Plane)
-            },
-        }
+    /// Creates the path of friction or the kernel, on which the forces depend, from 0 to `max_value`.
+    pub fn threshold(max_value: f64, setting: impl Fn(f64) -> Setting + 'a) -> Path<'a> {
+        Path { max_value, typical_large: max_value / MAX_VALUE, ..Path::new(Predictor::Tangent, setting) }
     }
 
     /// Leaves only the loads that grow in the direction of larger (1) or smaller (−1) values. An interval is unbounded in

@@ -7,7 +7,6 @@
 //! of unbalanced forces, becomes 0. The search starts where the component falls.
 
 use super::interval::{END_TOL, End, Exclusion, Interval};
-use super::kind::MarginKind;
 use super::path::Path;
 use super::search::{Beyond, Bracket, CONFIRMATION_TOL};
 use super::trial::{Setting, Trial};
@@ -16,8 +15,7 @@ use crate::mechanics::solve::Tangent;
 
 /// Returns the interval of values, from 0 to `max_value`, at which a component stands. `outward` is −1 if it stands
 /// above a least sufficient value, such as the least friction, and 1 if it stands below a largest admissible value.
-pub(super) fn threshold(trial: &mut Trial, kind: MarginKind, outward: f64) -> Interval {
-    let path = Path::of(kind, trial);
+pub(super) fn threshold(trial: &mut Trial, path: &Path, outward: f64) -> Interval {
     let (setting, max_value) = (&path.setting, path.max_value);
     let is_upper = outward > 0.0;
     let interval = |end: End| {

@@ -5,7 +5,6 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::kind::MarginKind;
 use crate::geometry::{quarter_turn, sin_cos_degrees};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::decide::{
@@ -82,19 +81,6 @@ impl Setting {
         has_fixed_loads: false,
         limits: LimitChange::None,
     };
-
-    /// Returns the setting for a value of the parameter of a margin; unchanged for [`MarginKind::Robots`].
-    pub fn at(kind: MarginKind, value: f64) -> Setting {
-        let given = Setting::default();
-        match kind {
-            MarginKind::Friction => Setting { friction: Some(value), ..given },
-            MarginKind::Tilt => Setting::tilted(value, 1.0),
-            MarginKind::HorizontalLoad => Setting { across: value, ..given },
-            MarginKind::Kernel => Setting { kernel: Some(value), ..given },
-            MarginKind::LoadFactor => Setting { loads: value, ..given },
-            MarginKind::Robots => given,
-        }
-    }
 
     /// Returns the setting with gravity rotated by an angle in degrees, positive to the right, and multiplied by
     /// `stretch`.

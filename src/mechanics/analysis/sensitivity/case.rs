@@ -1,7 +1,7 @@
 //! [`Case`]: a component exactly at an end of the interval in which it stands, where it begins to fall.
 
 use crate::geometry::cross;
-use crate::mechanics::analysis::margin::{MarginKind, Setting};
+use crate::mechanics::analysis::margin::MarginKind;
 use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::Motion;
 use crate::mechanics::solve::{LimitState, limit_state};
@@ -33,22 +33,13 @@ const END_TOL: f64 = 1e-3;
 impl Case<'_> {
     /// Returns the component with the parameter set to `value`.
     pub fn at(&self, value: f64) -> Assembly {
-        Setting::at(self.kind, value).apply(self.component)
+        (self.kind.about().setting)(value).apply(self.component)
     }
 
     /// Returns the derivative of the load on each body with respect to the parameter, at `value`. `None` if the loads
     /// do not depend on the parameter.
     pub fn growth(&self, value: f64) -> Option<Vec<LoadVector>> {
-        let growth = match self.kind {
-            MarginKind::LoadFactor => Setting { loads: 1.0, ..Setting::UNLOADED },
-            MarginKind::HorizontalLoad => Setting { across: 1.0, ..Setting::UNLOADED },
-            MarginKind::Tilt => {
-                // Gravity grows across its direction.
-                let Setting { along, across, .. } = Setting::tilted(value + 90.0, 1_f64.to_radians());
-                Setting { along, across, ..Setting::UNLOADED }
-            }
-            MarginKind::Friction | MarginKind::Kernel | MarginKind::Robots => return None,
-        };
+        let growth = (self.kind.about().growth?)(value);
         let bodies = growth.apply(self.component).bodies;
         Some(bodies.iter().map(|body| body.load).collect())
     }

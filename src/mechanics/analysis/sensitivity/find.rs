@@ -8,7 +8,7 @@ use super::elimination::ZERO_TOL;
 use super::rates::Rates;
 use super::state::{EndState, Freedom};
 use super::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity};
-use crate::mechanics::analysis::margin::{END_TOL, End, Interval, Intervals, MarginKind};
+use crate::mechanics::analysis::margin::{END_TOL, End, Interval, MarginKind};
 use crate::mechanics::scene::BodyId;
 use crate::mechanics::solve::is_late;
 use crate::mechanics::statics::assembly::Assembly;
@@ -28,11 +28,11 @@ type SlopeOf<'a> = dyn Fn(f64, &dyn Fn(&Rates) -> f64) -> Slope + 'a;
 pub(in crate::mechanics::analysis) fn find(
     context: &FrameContext,
     parts: &[Part],
-    intervals: &Intervals,
+    interval: Option<&Interval>,
     kind: MarginKind,
 ) -> Sensitivity {
     // Contacts that the scene lists do not move with the corners of the outlines, so there are no derivatives.
-    let (low, high) = match intervals.of(kind).filter(|_| !context.scene.lists_contacts()) {
+    let (low, high) = match interval.filter(|_| !context.scene.lists_contacts()) {
         None => (Err(NoSensitivity::NotApplicable), Err(NoSensitivity::NotApplicable)),
         Some(Interval::Empty(_)) => (Err(NoSensitivity::Empty), Err(NoSensitivity::Empty)),
         Some(Interval::Undecided) => (Err(NoSensitivity::Unconfirmed), Err(NoSensitivity::Unconfirmed)),

@@ -148,7 +148,7 @@ fn joints_that_could_only_stay_closed_at_rest_open() {
     let scene = Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}"));
     let options = crate::mechanics::analysis::Options::default().margins(true);
     let analysis = Analysis::with(&scene, &options);
-    let (_, motions) = analysis.edge(0, crate::mechanics::analysis::Toward::Tilt).expect("it falls");
+    let (_, motions) = analysis.edge(0, crate::mechanics::analysis::MarginKind::Tilt).expect("it falls");
     let displaced = Course::new(&Fall::with(&analysis, 0, &motions), unit(&scene, None)).at(1.0);
     for (block, displacement) in scene.blocks.iter().zip(displaced) {
         let turned = displacement.expect("a displaced block").turned(Vector::new(1.0, 0.0));

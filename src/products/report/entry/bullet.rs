@@ -1,8 +1,8 @@
 //! [`MarginBar`]: a margin as a bar. It shows the values at which the structure stands, and the current value.
 
-use crate::mechanics::analysis::{End, FrameAnalysis, Interval};
+use crate::mechanics::analysis::{End, FrameAnalysis, Interval, MarginKind};
 use crate::mechanics::scene::Scene;
-use crate::products::wording::margin::{Parameter, Position, StatedMargin, confirmed, stated};
+use crate::products::wording::margin::{Position, StatedMargin, confirmed, stated};
 use crate::products::wording::number::{three_down, three_up};
 use crate::products::wording::question;
 
@@ -92,7 +92,7 @@ impl MarginBar {
             Interval::Between { low, high } => {
                 let from = confirmed(low).unwrap_or(scale.0);
                 let to = confirmed(high).unwrap_or(scale.1);
-                let begins = !margin.parameter.is_signed() && from <= 0.0;
+                let begins = !margin.kind.is_signed() && from <= 0.0;
                 let lower = match bar_end(margin, low) {
                     BarEnd::Edge if begins => BarEnd::Domain,
                     end => end,
@@ -111,7 +111,7 @@ impl MarginBar {
             ends,
             now: present,
             position: margin.position,
-            is_load_factor: margin.parameter == Parameter::LoadFactor,
+            is_load_factor: margin.kind == MarginKind::LoadFactor,
             reserve: margin.reserve(),
         }
     }
@@ -133,19 +133,19 @@ fn scale(margin: &StatedMargin<'_>, present: Option<(f64, f64)>) -> (f64, f64) {
     let values = ends.into_iter().flatten().filter_map(confirmed);
     let values = values.chain(present.map(|(_, high)| high));
     let farthest = values.map(f64::abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
-    let top = match margin.parameter {
-        Parameter::Kernel => 1.0,
-        Parameter::Tilt if farthest == 0.0 => 90.0,
+    let top = match margin.kind {
+        MarginKind::Kernel => 1.0,
+        MarginKind::Tilt if farthest == 0.0 => 90.0,
         _ if farthest == 0.0 => 1.0,
         _ => SCALE_END_RATIO * farthest,
     };
-    (if margin.parameter.is_signed() { -top } else { 0.0 }, top)
+    (if margin.kind.is_signed() { -top } else { 0.0 }, top)
 }
 
 fn bar_end(margin: &StatedMargin<'_>, end: &End) -> BarEnd {
     match end {
         // A kernel cannot be larger than 1.
-        End::Unbounded if margin.parameter == Parameter::Kernel => BarEnd::Domain,
+        End::Unbounded if margin.kind == MarginKind::Kernel => BarEnd::Domain,
         End::Unbounded => BarEnd::Open,
         End::Unconfirmed { .. } => BarEnd::Unconfirmed,
         End::At { .. } => BarEnd::Edge,

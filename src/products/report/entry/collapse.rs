@@ -3,10 +3,10 @@
 use super::joints::{name, off_hinge};
 use super::unit::Units;
 use super::{Grid, TableCell};
-use crate::mechanics::analysis::{Analysis, FALLS, FrameAnalysis, Motion, Toward, Verdict};
+use crate::mechanics::analysis::{Analysis, FALLS, FrameAnalysis, MarginKind, Motion, Verdict};
 use crate::products::figure::{Fall, Joint, Kind};
 use crate::products::wording::failure::unsupported_phrase;
-use crate::products::wording::margin::{Parameter, governing};
+use crate::products::wording::margin::governing;
 use crate::products::wording::number::{counted, percent};
 use crate::text::line;
 
@@ -18,7 +18,7 @@ pub(super) struct Collapse {
     /// The motion of the blocks.
     mechanism: Vec<Motion>,
     /// The parameter whose figure shows this collapse; `None` if the frame falls, or if no figure shows it.
-    toward: Option<Toward>,
+    toward: Option<MarginKind>,
     /// The margin in words: `carries 2.8 × its loads`. Empty for a frame that falls.
     margin: String,
     /// The friction coefficient of all joints in this collapse, if it is not the present one.
@@ -35,12 +35,7 @@ impl Collapse {
             // The elementary mechanism is the one that the figure shows.
             Verdict::Unstable => (analysis.alone(number)?.elementary().frames[0].mechanism.clone(), None),
             Verdict::Stable => {
-                let toward = governing.parameter.and_then(|parameter| match parameter {
-                    Parameter::LoadFactor => Some(Toward::LoadFactor),
-                    Parameter::Tilt => Some(Toward::Tilt),
-                    Parameter::HorizontalLoad => Some(Toward::HorizontalLoad),
-                    _ => None,
-                });
+                let toward = governing.kind.filter(|kind| kind.changes_loads());
                 match toward.and_then(|toward| analysis.edge(number, toward)) {
                     Some((_, mechanism)) => (mechanism, toward),
                     None => (governing.mechanism.to_vec(), None),
@@ -48,13 +43,13 @@ impl Collapse {
             }
         };
         let friction = governing.friction.filter(|_| toward.is_none());
-        let margin = governing.parameter.and(governing.words.into_iter().next());
+        let margin = governing.kind.and(governing.words.into_iter().next());
         let margin = margin.unwrap_or_default();
         (!mechanism.is_empty()).then_some(Collapse { mechanism, toward, margin, friction })
     }
 
     /// Returns the kind of the figure that shows the collapse, with the parameter that it varies.
-    pub fn figure(&self, found: &FrameAnalysis) -> Option<(Kind, Option<Toward>)> {
+    pub fn figure(&self, found: &FrameAnalysis) -> Option<(Kind, Option<MarginKind>)> {
         match found.verdict {
             Verdict::Unstable => Some((Kind::Mechanism, None)),
             _ => self.toward.map(|toward| (Kind::Margin, Some(toward))),
@@ -157,7 +152,7 @@ impl Collapse {
 
 /// Returns a parameter whose figure shows a collapse, if the headline margin has none: factor on the loads, tilt, or
 /// horizontal load.
-pub(super) fn other_way(analysis: &Analysis, number: usize) -> Option<Toward> {
-    let all = [Toward::LoadFactor, Toward::Tilt, Toward::HorizontalLoad];
+pub(super) fn other_way(analysis: &Analysis, number: usize) -> Option<MarginKind> {
+    let all = [MarginKind::LoadFactor, MarginKind::Tilt, MarginKind::HorizontalLoad];
     all.into_iter().find(|toward| analysis.edge(number, *toward).is_some())
 }

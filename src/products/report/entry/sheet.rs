@@ -5,7 +5,9 @@ use super::collapse::{Collapse, other_way};
 use super::joints::{Ranking, robots};
 use super::unit::Units;
 use super::{Badge, Figure, Grid, MarginBar, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
-use crate::mechanics::analysis::{Analysis, CaseResult, EffectName, FrameAnalysis, MovementOutcome, Toward, Verdict};
+use crate::mechanics::analysis::{
+    Analysis, CaseResult, EffectName, FrameAnalysis, MarginKind, MovementOutcome, Verdict,
+};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Drawing, Theme};
 use crate::products::figure::{self, Kind, Options};
@@ -92,7 +94,7 @@ pub(super) fn sheet(
     first.parts.extend(titled("Reactions", reactions, other_balances(analysis, number)));
     first.parts.extend(titled("Margins", margins(scene, found), Some(bullet::SHAPES_LEGEND.to_owned())));
     first.parts.extend(titled("Load cases", cases(scene, found), None));
-    let notes = found.margins.iter().flat_map(|margins| &margins.intervals.notes);
+    let notes = found.margins.iter().flat_map(|margins| &margins.notes);
     first.parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
 
     let parts = &mut second.parts;
@@ -215,8 +217,8 @@ fn figures(
             kind,
             toward,
             match toward {
-                Some(Toward::Tilt) => "How it would fall if gravity turned further than its margin.",
-                Some(Toward::HorizontalLoad) => "How it would fall under a larger push to the side.",
+                Some(MarginKind::Tilt) => "How it would fall if gravity turned further than its margin.",
+                Some(MarginKind::HorizontalLoad) => "How it would fall under a larger push to the side.",
                 _ => "How it would fall under more than its margin of loads.",
             },
         )),

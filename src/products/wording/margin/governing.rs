@@ -1,8 +1,8 @@
 //! [`governing`] states a frame's headline margin in a few words, for the line of the verdict below a picture, with the
 //! collapse at its limit; for a falling frame what it lacks to stand.
 
-use super::{Parameter, StatedMargin, confirmed, friction, stated};
-use crate::mechanics::analysis::{End, FrameAnalysis, Interval, Motion, Verdict};
+use super::{StatedMargin, confirmed, friction, stated};
+use crate::mechanics::analysis::{End, FrameAnalysis, Interval, MarginKind, Motion, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::products::wording::number::{NO_BREAK, digits, three_down, three_up};
 use crate::products::wording::question;
@@ -16,7 +16,7 @@ pub struct Governing<'a> {
     /// The margins in words, the headline margin first: `carries 2.81 × its loads`. Rounded to the safe side.
     pub words: Vec<String>,
     /// The parameter of the first margin; `None` for a frame that falls.
-    pub parameter: Option<Parameter>,
+    pub kind: Option<MarginKind>,
     /// What the first margin is a value of: `this load`, `this tilt`. Empty for a frame that falls.
     pub at: &'static str,
     /// The collapse just beyond the first margin; for a frame that falls, its own collapse. Empty if it is not known.
@@ -66,28 +66,21 @@ fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governin
     let margins = stated(scene, found);
     let mut governing = Governing::default();
     for (place, margin) in margins.iter().enumerate() {
-        let is_more = match margin.parameter {
-            Parameter::Tilt => true,
-            Parameter::Friction => friction_share(margin, found) >= NEAR_FRICTION,
+        let is_more = match margin.kind {
+            MarginKind::Tilt => true,
+            MarginKind::Friction => friction_share(margin, found) >= NEAR_FRICTION,
             _ => false,
         };
         let Some((words, end)) = reserve(margin, found, load).filter(|_| place == 0 || is_more) else {
             continue;
         };
-        governing.parameter.get_or_insert(margin.parameter);
+        governing.kind.get_or_insert(margin.kind);
         if governing.words.is_empty()
             && let Some(End::At { mechanism, value }) = end
         {
             governing.mechanism = mechanism;
-            governing.friction = (margin.parameter == Parameter::Friction).then_some(*value);
-            governing.at = match margin.parameter {
-                Parameter::LoadFactor => "this load",
-                Parameter::Tilt => "this tilt",
-                Parameter::HorizontalLoad => "this push",
-                Parameter::Friction => "this friction",
-                Parameter::Kernel => "this kernel",
-                Parameter::RobotForce(_) | Parameter::RobotTorque(_) => "this limit",
-            };
+            governing.friction = (margin.kind == MarginKind::Friction).then_some(*value);
+            governing.at = margin.kind.about().at;
         }
         governing.words.push(words);
     }
@@ -115,8 +108,8 @@ fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> 
         let is_alike = sides.get(1).is_some_and(|other| three_down(other.0) == three_down(near));
         Some((near, end, if is_alike { "" } else { side }))
     };
-    match margin.parameter {
-        Parameter::LoadFactor => {
+    match margin.kind {
+        MarginKind::LoadFactor => {
             if let Some((factor, end)) = value(high) {
                 return Some((format!("carries {} × its {load}", three_down(factor)), end));
             }
@@ -124,16 +117,16 @@ fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> 
             let (factor, end) = value(low).filter(|(factor, _)| *factor > 0.0)?;
             Some((format!("needs {} × its {load}", three_up(factor)), end))
         }
-        Parameter::Tilt => {
+        MarginKind::Tilt => {
             let (angle, end, side) = nearest()?;
             Some((format!("falls at {}° of tilt{side}", three_down(angle)), end))
         }
-        Parameter::HorizontalLoad => {
+        MarginKind::HorizontalLoad => {
             let (share, end, side) = nearest()?;
             let side = if side.is_empty() { " sideways" } else { side };
             Some((format!("falls at {} × its weight{side}", three_down(share)), end))
         }
-        Parameter::Friction => {
+        MarginKind::Friction => {
             let (needed, end) = value(low).filter(|(needed, _)| *needed > 0.0)?;
             let (least, most) = friction(found)?;
             let needed = three_up(needed);
@@ -144,11 +137,11 @@ fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> 
             };
             Some((words, end))
         }
-        Parameter::Kernel => {
+        MarginKind::Kernel => {
             let (kernel, end) = value(high)?;
             Some((format!("stands up to a kernel of {}", three_down(kernel)), end))
         }
-        Parameter::RobotForce(_) | Parameter::RobotTorque(_) => None,
+        _ => None,
     }
 }
 
@@ -158,11 +151,11 @@ pub(super) fn lack(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<Stri
     if frame_analysis.verdict != Verdict::Unstable {
         return None;
     }
-    let intervals = &frame_analysis.margins.as_ref()?.intervals;
-    let loads = intervals.load_factor.as_ref();
+    let margins = frame_analysis.margins.as_ref()?;
+    let loads = margins.of(MarginKind::LoadFactor);
     loads
         .and_then(|interval| load_lack(scene, interval))
-        .or_else(|| friction_lack(frame_analysis, intervals.friction.as_ref()?))
+        .or_else(|| friction_lack(frame_analysis, margins.of(MarginKind::Friction)?))
 }
 
 /// Describes which fraction of its loads a falling frame carries, or how many times its loads it would need to stand.

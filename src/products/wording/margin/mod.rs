@@ -12,7 +12,7 @@ pub use governing::{Governing, governing};
 use super::number::{amount, digits, three_down, three_up};
 use crate::geometry::range_of;
 use crate::mechanics::analysis::{
-    End, Exclusion, FALLS, FrameAnalysis, Interval, Intervals, STANDS, UNDECIDED, Verdict,
+    End, Exclusion, FALLS, FrameAnalysis, Interval, MarginKind, Margins, STANDS, UNDECIDED, Verdict,
 };
 use crate::mechanics::scene::{Scene, Unit};
 use crate::text;
@@ -20,69 +20,27 @@ use crate::text;
 /// Smaller values of a parameter are rounding errors.
 const NOISE: f64 = 1e-9;
 
-/// The parameter that a margin varies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Parameter {
-    /// One friction coefficient for every interface.
-    Friction,
-    /// The rotation of gravity, degrees.
-    Tilt,
-    /// The horizontal force on each block, relative to its weight.
-    HorizontalLoad,
-    /// The safety kernel: the fraction of each interface's length that must stay free of force.
-    Kernel,
-    /// The factor on the listed loads.
-    LoadFactor,
-    /// The limit of a robot's force, N, and the unit in which it is written.
-    RobotForce(Unit),
-    /// The limit of a robot's torque, N·m, and the unit in which it is written.
-    RobotTorque(Unit),
+/// Writes a value of a parameter with its unit. A signed value has its direction instead of a sign: `5° left`.
+pub(in crate::products) fn value(kind: MarginKind, value: f64) -> String {
+    written(kind, value, digits)
 }
 
-impl Parameter {
-    /// Returns the unit that is written after a value of this parameter: `°` for a tilt, otherwise an empty text. The
-    /// limits of robots are written with their own units instead.
-    fn unit(self) -> &'static str {
-        match self {
-            Parameter::Tilt => "°",
-            _ => "",
-        }
-    }
+/// Writes an end of an interval at which the frame stands, rounded into the interval. `is_upper` is true for the upper
+/// end.
+pub(in crate::products) fn end(kind: MarginKind, value: f64, is_upper: bool) -> String {
+    written(kind, value, if is_upper == (value >= 0.0) { three_down } else { three_up })
+}
 
-    /// True if a value of the parameter can be negative. A negative value points to the left.
-    pub fn is_signed(self) -> bool {
-        matches!(self, Parameter::Tilt | Parameter::HorizontalLoad)
+/// Writes a value with its unit and its side. `number` writes its size.
+fn written(kind: MarginKind, value: f64, number: fn(f64) -> String) -> String {
+    let unit = kind.about().unit;
+    let value = if value.abs() < NOISE { 0.0 } else { value };
+    if !kind.is_signed() {
+        return format!("{}{unit}", number(value));
     }
-
-    /// Writes a value of the parameter with its unit. A signed value has its direction instead of a sign: `5° left`.
-    pub(in crate::products) fn value(self, value: f64) -> String {
-        if let Parameter::RobotForce(unit) | Parameter::RobotTorque(unit) = self {
-            return amount(value, unit);
-        }
-        self.written(value, &digits)
-    }
-
-    /// Writes an end of an interval at which the frame stands, rounded into the interval. `is_upper` is true for the
-    /// upper end.
-    pub(in crate::products) fn end(self, value: f64, is_upper: bool) -> String {
-        match self {
-            Parameter::RobotForce(_) | Parameter::RobotTorque(_) => self.value(value),
-            _ if is_upper == (value >= 0.0) => self.written(value, &three_down),
-            _ => self.written(value, &three_up),
-        }
-    }
-
-    /// Writes a value with its unit and its side. `number` writes its size.
-    fn written(self, value: f64, number: &dyn Fn(f64) -> String) -> String {
-        let unit = self.unit();
-        let value = if value.abs() < NOISE { 0.0 } else { value };
-        if !self.is_signed() {
-            return format!("{}{unit}", number(value));
-        }
-        let side = side(value);
-        let past = if self == Parameter::Tilt && value.abs() > 180.0 { " (past upside down)" } else { "" };
-        format!("{}{unit}{side}{past}", number(value.abs()))
-    }
+    let side = side(value);
+    let past = if kind == MarginKind::Tilt && value.abs() > 180.0 { " (past upside down)" } else { "" };
+    format!("{}{unit}{side}{past}", number(value.abs()))
 }
 
 /// Returns the word in place of the sign of a tilt or a horizontal load; empty for 0.
@@ -109,7 +67,9 @@ pub enum Position {
 #[derive(Clone, Debug)]
 pub struct StatedMargin<'a> {
     /// The parameter.
-    pub parameter: Parameter,
+    pub kind: MarginKind,
+    /// The unit of the limit of a robot.
+    unit: Option<Unit>,
     /// The name of the parameter in words.
     pub name: String,
     /// The values at which the frame stands.
@@ -130,16 +90,21 @@ impl StatedMargin<'_> {
         }
     }
 
-    /// Describes the interval of the margin without the current value: `stands from 0.3 to 2.4`.
-    pub fn stands(&self) -> String {
-        stands(self.parameter, self.interval)
+    /// Writes a value of the parameter.
+    fn value(&self, value: f64) -> String {
+        self.unit.map_or_else(|| self::value(self.kind, value), |unit| amount(value, unit))
+    }
+
+    /// Writes an end of the interval, rounded into the interval.
+    fn end(&self, end: f64, is_upper: bool) -> String {
+        self.unit.map_or_else(|| self::end(self.kind, end, is_upper), |unit| amount(end, unit))
     }
 
     /// Describes the current value, and whether it is outside the interval or undecided: `now 3, outside`. Returns
     /// `None` if there is no current value.
     fn present_words(&self) -> Option<String> {
         let (low, high) = self.present?;
-        let value = |value: f64| self.parameter.value(value);
+        let value = |value: f64| self.value(value);
         let now = match (low, high) {
             (_, high) if high.is_infinite() && low.is_infinite() => "now without limit".to_owned(),
             (low, high) if low == high => format!("now {}", value(low)),
@@ -155,12 +120,11 @@ impl StatedMargin<'_> {
 
     /// Returns the two ends of the interval and the current value in words: `0.3`, `no limit`, `1`.
     pub fn ends_and_present(&self) -> [String; 3] {
-        let parameter = self.parameter;
         let end = |end: Option<&End>, is_upper: bool| match end {
             None => "no value".to_owned(),
             Some(End::Unbounded) => "no limit".to_owned(),
-            Some(End::At { value, .. }) => parameter.end(*value, is_upper),
-            Some(End::Unconfirmed { stands, .. }) => format!("at least {}", parameter.end(*stands, is_upper)),
+            Some(End::At { value, .. }) => self.end(*value, is_upper),
+            Some(End::Unconfirmed { stands, .. }) => format!("at least {}", self.end(*stands, is_upper)),
         };
         let ends = match self.interval {
             Interval::Undecided => [UNDECIDED.to_owned(), UNDECIDED.to_owned()],
@@ -169,8 +133,8 @@ impl StatedMargin<'_> {
         let present = match self.present {
             None => "–".to_owned(),
             Some((low, _)) if low.is_infinite() => "no limit".to_owned(),
-            Some((low, high)) if low == high => parameter.value(low),
-            Some((low, high)) => format!("{} to {}", parameter.value(low), parameter.value(high)),
+            Some((low, high)) if low == high => self.value(low),
+            Some((low, high)) => format!("{} to {}", self.value(low), self.value(high)),
         };
         let [low, high] = ends;
         [low, high, present]
@@ -204,14 +168,89 @@ impl StatedMargin<'_> {
         let Some((least, most)) = self.present else {
             return 1.0;
         };
-        let room = match self.parameter {
-            Parameter::Tilt => [low.map(|v| -v / 90.0), high.map(|v| v / 90.0)],
-            Parameter::HorizontalLoad => [low.map(|v| -v), high],
-            Parameter::Kernel => [None, high.map(|v| (v - most) / (1.0 - most))],
+        let room = match self.kind {
+            MarginKind::Tilt => [low.map(|v| -v / 90.0), high.map(|v| v / 90.0)],
+            MarginKind::HorizontalLoad => [low.map(|v| -v), high],
+            MarginKind::Kernel => [None, high.map(|v| (v - most) / (1.0 - most))],
             _ => [low.filter(|v| *v > 0.0 && least.is_finite()).map(|v| 1.0 - v / least), high.map(|v| 1.0 - most / v)],
         };
         let room = room.into_iter().flatten().filter(|share| !share.is_nan());
         room.fold(1.0, f64::min).max(0.0)
+    }
+
+    /// Describes at which values of a parameter the frame stands: `stands from 0.3 to 2.4`.
+    pub fn stands(&self) -> String {
+        let (low, high) = match self.interval {
+            Interval::Between { low, high } => (low, high),
+            Interval::Empty(excluded) => {
+                let none = match self.kind {
+                    MarginKind::LoadFactor => "stands under no multiple of its loads",
+                    _ => "stands at no value",
+                };
+                return match conflict(excluded) {
+                    Some([low, high]) => {
+                        let [low, high] = [low, high].map(|value| self.value(value));
+                        if self.kind.is_signed() {
+                            format!("{none}: {FALLS} to the left of {low}, and {FALLS} to the right of {high}")
+                        } else {
+                            format!("{none}: {FALLS} below {low}, and {FALLS} above {high}")
+                        }
+                    }
+                    None => none.to_owned(),
+                };
+            }
+            Interval::Undecided => return format!("no verdict shows at which values it {STANDS}"),
+        };
+        let unconfirmed = [("lower", low), ("upper", high)].into_iter().filter_map(|(name, end)| {
+            let End::Unconfirmed { stands, beyond } = end else {
+                return None;
+            };
+            let value = |value: f64| self.value(value);
+            Some(if beyond.is_finite() {
+                let [stands, beyond] = [value(*stands), value(*beyond)];
+                format!(" ({name} end not confirmed: between {stands} and {beyond})")
+            } else {
+                format!(" ({name} end not confirmed: beyond {})", value(*stands))
+            })
+        });
+        let unconfirmed: String = unconfirmed.collect();
+        format!("{STANDS} {}{unconfirmed}", self.range(low, high))
+    }
+
+    /// Describes the values between the two ends of an interval: `from 0.3 to 2.4`.
+    fn range(&self, low: &End, high: &End) -> String {
+        // If the parameter cannot be negative, do not write a lower end of 0.
+        let begins = |low: &f64| self.kind.is_signed() || *low > 0.0;
+        let least = confirmed(low).filter(begins);
+        let most = confirmed(high);
+        let least_words = |value: f64| self.end(value, false);
+        let value = |value: f64| self.end(value, true);
+        // An interval that is shorter than the rounding is one value.
+        let is_one = |low: f64, high: f64| self.value(low) == self.value(high);
+        if self.kind == MarginKind::LoadFactor {
+            let factor = match (least, most) {
+                (None, None) => "any factor".to_owned(),
+                (None, Some(high)) => format!("at most {}", value(high)),
+                (Some(low), None) => format!("at least {}", least_words(low)),
+                (Some(low), Some(high)) if is_one(low, high) => self.value(low),
+                (Some(low), Some(high)) => format!("{} to {}", least_words(low), value(high)),
+            };
+            return format!("with its loads times {factor}");
+        }
+        match (least, most) {
+            (None, None) => "at any value".to_owned(),
+            (None, Some(high)) if self.kind.is_signed() => {
+                format!("up to {}, without a limit to the left", value(high))
+            }
+            (Some(low), None) if self.kind.is_signed() => {
+                format!("from {} on, without a limit to the right", least_words(low))
+            }
+            (None, Some(high)) => format!("up to {}", value(high)),
+            (Some(low), None) => format!("at {} and more", least_words(low)),
+            // If both ends have the same text, they are equal at the printed precision.
+            (Some(low), Some(high)) if is_one(low, high) => format!("only at {}", self.value(low)),
+            (Some(low), Some(high)) => format!("from {} to {}", least_words(low), value(high)),
+        }
     }
 }
 
@@ -231,48 +270,9 @@ pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
     let stated = stated(scene, frame_analysis);
     let line = |margin: &StatedMargin<'_>| format!("{}: {}", margin.name, margin.sentence());
     let mut lines: Vec<String> = stated.iter().map(line).collect();
-    let notes = frame_analysis.margins.iter().flat_map(|margins| &margins.intervals.notes);
+    let notes = frame_analysis.margins.iter().flat_map(|margins| &margins.notes);
     lines.extend(notes.map(|note| format!("note: {note}")));
     lines
-}
-
-/// Describes at which values of a parameter the frame stands: `stands from 0.3 to 2.4`.
-pub fn stands(parameter: Parameter, interval: &Interval) -> String {
-    let (low, high) = match interval {
-        Interval::Between { low, high } => (low, high),
-        Interval::Empty(excluded) => {
-            let none = match parameter {
-                Parameter::LoadFactor => "stands under no multiple of its loads",
-                _ => "stands at no value",
-            };
-            return match conflict(excluded) {
-                Some([low, high]) => {
-                    let [low, high] = [low, high].map(|value| parameter.value(value));
-                    if parameter.is_signed() {
-                        format!("{none}: {FALLS} to the left of {low}, and {FALLS} to the right of {high}")
-                    } else {
-                        format!("{none}: {FALLS} below {low}, and {FALLS} above {high}")
-                    }
-                }
-                None => none.to_owned(),
-            };
-        }
-        Interval::Undecided => return format!("no verdict shows at which values it {STANDS}"),
-    };
-    let unconfirmed = [("lower", low), ("upper", high)].into_iter().filter_map(|(name, end)| {
-        let End::Unconfirmed { stands, beyond } = end else {
-            return None;
-        };
-        let value = |value: f64| parameter.value(value);
-        Some(if beyond.is_finite() {
-            let [stands, beyond] = [value(*stands), value(*beyond)];
-            format!(" ({name} end not confirmed: between {stands} and {beyond})")
-        } else {
-            format!(" ({name} end not confirmed: beyond {})", value(*stands))
-        })
-    });
-    let unconfirmed: String = unconfirmed.collect();
-    format!("{STANDS} {}{unconfirmed}", range(parameter, low, high))
 }
 
 /// Two collapse motions may together exclude all values of a parameter: one excludes all values below a, the other all
@@ -284,108 +284,52 @@ fn conflict(excluded: &[Exclusion]) -> Option<[f64; 2]> {
     }
 }
 
-/// Describes the values between the two ends of an interval: `from 0.3 to 2.4`.
-fn range(parameter: Parameter, low: &End, high: &End) -> String {
-    // If the parameter cannot be negative, do not write a lower end of 0.
-    let begins = |low: &f64| parameter.is_signed() || *low > 0.0;
-    let least = confirmed(low).filter(begins);
-    let most = confirmed(high);
-    let least_words = |value: f64| parameter.end(value, false);
-    let value = |value: f64| parameter.end(value, true);
-    // An interval that is shorter than the rounding is one value.
-    let is_one = |low: f64, high: f64| parameter.value(low) == parameter.value(high);
-    if parameter == Parameter::LoadFactor {
-        let factor = match (least, most) {
-            (None, None) => "any factor".to_owned(),
-            (None, Some(high)) => format!("at most {}", value(high)),
-            (Some(low), None) => format!("at least {}", least_words(low)),
-            (Some(low), Some(high)) if is_one(low, high) => parameter.value(low),
-            (Some(low), Some(high)) => format!("{} to {}", least_words(low), value(high)),
-        };
-        return format!("with its loads times {factor}");
-    }
-    match (least, most) {
-        (None, None) => "at any value".to_owned(),
-        (None, Some(high)) if parameter.is_signed() => {
-            format!("up to {}, without a limit to the left", value(high))
-        }
-        (Some(low), None) if parameter.is_signed() => {
-            format!("from {} on, without a limit to the right", least_words(low))
-        }
-        (None, Some(high)) => format!("up to {}", value(high)),
-        (Some(low), None) => format!("at {} and more", least_words(low)),
-        // If both ends have the same text, they are equal at the printed precision.
-        (Some(low), Some(high)) if is_one(low, high) => format!("only at {}", parameter.value(low)),
-        (Some(low), Some(high)) => format!("from {} to {}", least_words(low), value(high)),
-    }
-}
-
 /// Returns all computed margins of a frame. The most important margin, which the headline describes, comes first.
 pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<StatedMargin<'a>> {
     let Some(margins) = &frame_analysis.margins else {
         return Vec::new();
     };
-    let intervals = &margins.intervals;
     let position = match frame_analysis.verdict {
         Verdict::Stable => Position::Inside,
         Verdict::Unstable => Position::Outside,
         Verdict::Undecided => Position::Unknown,
     };
-    let mut list = whole_frame(scene, frame_analysis, intervals, position);
-    list.extend(robot_limits(scene, intervals, position));
+    let margin = |kind: MarginKind| {
+        let interval = margins.of(kind)?;
+        let present = match kind {
+            MarginKind::Friction => friction(frame_analysis),
+            _ => kind.about().present.or(Some(scene.kernel)).map(|present| (present, present)),
+        };
+        let position = match kind {
+            MarginKind::Friction => friction_position(interval, present, position),
+            _ => position,
+        };
+        Some(StatedMargin { kind, unit: None, name: kind.about().name.to_owned(), interval, present, position })
+    };
+    let mut list: Vec<StatedMargin<'_>> = MarginKind::of_frame().filter_map(margin).collect();
+    list.sort_by_key(|margin| margin.kind != MarginKind::LoadFactor);
+    list.extend(robot_limits(scene, margins, position));
     if let Some(first) = most_important(&list) {
         list[..=first].rotate_right(1);
     }
     list
 }
 
-/// Returns the computed margins that concern the whole frame: all except the limits of robots.
-fn whole_frame<'a>(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
-    intervals: &'a Intervals,
-    position: Position,
-) -> Vec<StatedMargin<'a>> {
-    use Parameter::{Friction, HorizontalLoad, Kernel, LoadFactor, Tilt};
-    let share = "horizontal load, as a share of the weights";
-    let all = [
-        (LoadFactor, "factor on the loads", &intervals.load_factor, 1.0),
-        (Friction, "friction coefficient", &intervals.friction, 0.0),
-        (Tilt, "tilt of gravity", &intervals.tilt, 0.0),
-        (HorizontalLoad, share, &intervals.horizontal_load, 0.0),
-        (Kernel, "safety kernel", &intervals.kernel, scene.kernel),
-    ];
-    let mut list = Vec::new();
-    for (parameter, name, interval, present) in all {
-        let Some(interval) = interval else {
-            continue;
-        };
-        let mut margin =
-            StatedMargin { parameter, name: name.to_owned(), interval, present: Some((present, present)), position };
-        if parameter == Friction {
-            margin.present = friction(frame_analysis);
-            margin.position = friction_position(interval, margin.present, position);
-        }
-        list.push(margin);
-    }
-    list
-}
-
 /// Returns the margins for the force and torque limits of each robot.
-fn robot_limits<'a>(scene: &Scene, intervals: &'a Intervals, position: Position) -> Vec<StatedMargin<'a>> {
-    let force = Parameter::RobotForce(scene.units.force());
-    let torque = Parameter::RobotTorque(scene.units.torque());
+fn robot_limits<'a>(scene: &Scene, margins: &'a Margins, position: Position) -> Vec<StatedMargin<'a>> {
+    let (force, torque) = (scene.units.force(), scene.units.torque());
     let mut list = Vec::new();
-    for robot in &intervals.robots {
-        let arm = &scene.robots[robot.robot.0];
+    for (robot, [fx, fy, spin]) in margins.robots() {
+        let arm = &scene.robots[robot.0];
         let (id, limits) = (text::line(&arm.id), arm.limits);
         let all = [
-            (force, "horizontal force", &robot.fx, limits.fx),
-            (force, "vertical force", &robot.fy, limits.fy),
-            (torque, "torque", &robot.torque, limits.torque),
+            (force, "horizontal force", fx, limits.fx),
+            (force, "vertical force", fy, limits.fy),
+            (torque, "torque", spin, limits.torque),
         ];
-        list.extend(all.map(|(parameter, name, interval, limit)| StatedMargin {
-            parameter,
+        list.extend(all.map(|(unit, name, interval, limit)| StatedMargin {
+            kind: MarginKind::Robots,
+            unit: Some(unit),
             name: format!("limit of the {name} of robot {id}"),
             interval,
             present: Some((limit, limit)),
@@ -398,7 +342,7 @@ fn robot_limits<'a>(scene: &Scene, intervals: &'a Intervals, position: Position)
 /// Returns the index of the most important margin. This is the load factor, if the list has it and it has a limit.
 /// Otherwise it is the margin with the smallest [`StatedMargin::reserve`]. Returns `None` for an empty list.
 fn most_important(list: &[StatedMargin<'_>]) -> Option<usize> {
-    let loads = list.iter().position(|m| m.parameter == Parameter::LoadFactor && !m.has_no_limit());
+    let loads = list.iter().position(|m| m.kind == MarginKind::LoadFactor && !m.has_no_limit());
     let reserves = list.iter().map(StatedMargin::reserve).enumerate();
     loads.or_else(|| reserves.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(first, _)| first))
 }
