@@ -19,6 +19,7 @@ mod built;
 mod circle;
 mod claims;
 mod column;
+mod conditions;
 mod costly;
 mod edge;
 mod falls;

@@ -1,12 +1,25 @@
-//! Load cases: each frame is analysed in every case, and its results are those of its worst case.
+//! Load cases: each frame is analysed in every case.
 //!
-//! The worst case has the worst verdict. Of the cases in which the frame stands, it has the least load factor, and of
-//! cases with the same load factor the least tilt, if these margins were computed; otherwise it is the first.
+//! The forces and the verdict of a frame are those of its worst case. It has the worst verdict; of cases with the same
+//! verdict it has the least load factor, which is always computed for this, and then it is the first. So the worst case does
+//! not depend on what else is asked.
+//!
+//! Margins, the placement tolerance, removable blocks and the influence line hold in all cases: [`Answers`] combines those
+//! of each case, and of a position of the vehicle, and names the [`Condition`] that decides each of them.
 
 use std::sync::Arc;
 
-use super::{Analysis, FrameAnalysis, Influence, MarginKind, Margins, Options, Verdict, reach, repeat};
-use crate::mechanics::scene::{Case, Load, Note, Scene};
+use super::condition::Condition;
+use super::decide::decided_forces;
+use super::margin::{END_TOL, largest_load_factor};
+use super::placement::Placement;
+use super::removable::Removable;
+use super::{Alone, Analysis, FrameAnalysis, Influence, Margins, Motion, Options, Verdict, reach, repeat, vehicle};
+use crate::mechanics::scene::{Case, Load, Note, RobotId, Scene};
+use crate::mechanics::solve::{DeadlineGuard, is_late};
+use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::statics::effect;
+use crate::mechanics::statics::interface::Interfaces;
 
 /// The results of all load cases of one frame.
 #[derive(Clone, Debug, Default)]
@@ -14,6 +27,9 @@ use crate::mechanics::scene::{Case, Load, Note, Scene};
 pub struct LoadCases {
     /// The index of the case to which the results of the frame belong: its worst case.
     pub governing: usize,
+    /// Whether the case is worse than others in its verdict or its load factor, or all cases may be as bad. Otherwise no
+    /// case has a limit of its loads, and the first one is taken.
+    pub is_worst: bool,
     /// The result of each case, in the order of the scene.
     pub each: Vec<CaseResult>,
     /// For each interface of the frame, the least and the greatest normal force and friction force of the listed
@@ -41,6 +57,78 @@ pub struct Envelope {
     pub normal: [f64; 2],
     /// The friction force, in the direction of the tangent.
     pub friction: [f64; 2],
+}
+
+/// The answers of a frame that hold in several conditions.
+#[derive(Clone, Debug)]
+pub(super) struct Answers {
+    verdict: Verdict,
+    mechanism: Vec<Motion>,
+    margins: Option<Margins>,
+    placement: Option<Placement>,
+    removable: Option<Vec<Removable>>,
+    /// The blocks that need the help of different robots in different conditions.
+    without_help: Vec<Removable>,
+}
+
+impl Answers {
+    /// Returns the answers of a frame in one condition.
+    pub(super) fn of(found: &FrameAnalysis, condition: Condition) -> Answers {
+        let with = |own: &mut Condition| {
+            own.case = condition.case.or(own.case);
+            own.position = condition.position.or(own.position);
+        };
+        let FrameAnalysis { verdict, mechanism, margins, placement, removable, .. } = found.clone();
+        let mut answers = Answers { verdict, mechanism, margins, placement, removable, without_help: Vec::new() };
+        let margins = answers.margins.iter_mut().flat_map(|margins| &mut margins.each);
+        margins.flat_map(|margin| &mut margin.conditions).for_each(with);
+        answers.placement.iter_mut().flat_map(|own| &mut own.conditions).for_each(with);
+        answers.removable.iter_mut().flatten().for_each(|row| with(&mut row.condition));
+        answers
+    }
+
+    /// Returns a frame with these answers, which are its own.
+    pub(super) fn in_place_of(self, found: FrameAnalysis) -> FrameAnalysis {
+        FrameAnalysis { margins: self.margins, placement: self.placement, removable: self.removable, ..found }
+    }
+
+    /// Keeps what also holds for these answers of the same frame.
+    pub(super) fn also(&mut self, other: Answers) {
+        let pair = self.margins.as_ref().zip(other.margins.as_ref());
+        self.margins = pair.map(|(own, others)| {
+            Margins::and((own, (self.verdict, &self.mechanism)), (others, (other.verdict, &other.mechanism)))
+        });
+        self.placement = self.placement.take().zip(other.placement).map(|(own, other)| own.and(other));
+        self.removable = self.removable.take().zip(other.removable).map(|(own, other)| {
+            let rows = own.into_iter().zip(other).map(|(own, other)| {
+                let (row, differs) = own.and(other);
+                self.without_help.extend(differs.then(|| row.clone()));
+                row
+            });
+            rows.collect()
+        });
+        if other.verdict > self.verdict {
+            (self.verdict, self.mechanism) = (other.verdict, other.mechanism);
+        }
+    }
+
+    /// Gives a frame these answers instead of those in its own condition.
+    pub(super) fn give_to(self, scene: &Scene, found: &mut FrameAnalysis) {
+        let alone = Alone { margins: found.margins.take(), placement: found.placement.take() };
+        let name = |robot: RobotId| scene.robots[robot.0].id.clone();
+        let withheld = self.margins.iter().flat_map(|margins| margins.withheld(name));
+        let withheld: Vec<String> = withheld.filter(|notice| !found.notices.contains(notice)).collect();
+        found.notices.extend(withheld);
+        for row in &self.without_help {
+            found.notices.push(format!(
+                "removable: no single block is known whose robot helps in all conditions if block {} leaves",
+                scene.blocks[row.block.0].id
+            ));
+        }
+        // What was combined before stays: the results in the condition of the forces.
+        found.alone.get_or_insert_with(|| Arc::new(alone));
+        (found.margins, found.placement, found.removable) = (self.margins, self.placement, self.removable);
+    }
 }
 
 /// The scenes of an analysis with load cases, or of frames that fall under a vehicle.
@@ -100,10 +188,14 @@ impl Analysis {
     pub(super) fn of_cases(scene: Arc<Scene>, options: &Options) -> Analysis {
         // A change must reach its target in all cases.
         let alone = Options { reach: None, ..*options };
+        let interfaces = Interfaces::new(&scene);
+        let _until = DeadlineGuard::new(options.deadline);
         let source = repeat::source_of_each(&scene.frames);
         let (mut frames, mut scenes, mut notes) = (Vec::<Arc<FrameAnalysis>>::new(), Vec::new(), Vec::new());
         let mut cases: Vec<LoadCases> = Vec::new();
         let mut lines: Vec<Option<Influence>> = Vec::new();
+        let mut answers: Vec<Answers> = Vec::new();
+        let mut worst: Vec<f64> = Vec::new();
         let mut latest: Option<Analysis> = None;
         for (k, (case, in_case)) in scene.in_cases().enumerate() {
             // If nothing was decided before the deadline, nothing is decided in the other cases either.
@@ -117,13 +209,22 @@ impl Analysis {
                 frames.clone_from(&found.frames);
                 scenes = (0..frames.len()).map(|number| found.scene_of(number).clone()).collect();
                 lines = frames.iter().map(|frame| frame.vehicle.clone()).collect();
+                worst = vec![f64::INFINITY; frames.len()];
                 let range = |k: usize| if source[k] == k { envelope(&frames[k]) } else { Vec::new() };
-                let first = |k| LoadCases { governing: 0, each: Vec::new(), envelope: range(k) };
+                let first = |k| LoadCases { governing: 0, is_worst: false, each: Vec::new(), envelope: range(k) };
                 cases = (0..frames.len()).map(first).collect();
             }
-            for (number, frame) in found.frames.iter().enumerate().filter(|(k, _)| source[*k] == *k) {
+            for (place, (number, frame)) in
+                found.frames.iter().enumerate().filter(|(k, _)| source[*k] == *k).enumerate()
+            {
                 let (id, verdict, margins) = (case.id.clone(), frame.verdict, frame.margins.clone());
                 cases[number].each.push(CaseResult { id, verdict, margins });
+                let own = Answers::of(frame, Condition { case: Some(k), position: None });
+                if k == 0 {
+                    answers.push(own);
+                } else if let Some(answers) = answers.get_mut(place) {
+                    answers.also(own);
+                }
                 for (range, own) in cases[number].envelope.iter_mut().zip(envelope(frame)) {
                     range.normal = wider(range.normal, own.normal);
                     range.friction = wider(range.friction, own.friction);
@@ -133,8 +234,13 @@ impl Analysis {
                     line.keep_least(own);
                     line
                 });
-                if is_worse(frame, &frames[number]) {
-                    frames[number] = frame.clone();
+                // Only the worst case has forces that are shown, so a lone verdict needs no load factor.
+                let is_compared = !options.verdict_only && scene.cases.len() > 1 && verdict >= frames[number].verdict;
+                let factor =
+                    if is_compared { load_factor(&found.scene, number, frame, &interfaces) } else { f64::INFINITY };
+                let is_less = factor < worst[number] * (1.0 - END_TOL);
+                if k == 0 || verdict > frames[number].verdict || verdict == frames[number].verdict && is_less {
+                    (frames[number], worst[number]) = (frame.clone(), factor);
                     scenes[number] = found.scene_of(number).clone();
                     cases[number].governing = k;
                 }
@@ -142,7 +248,12 @@ impl Analysis {
         }
         let own = frames.iter_mut().enumerate().filter(|(k, _)| source[*k] == *k);
         let mut own: Vec<_> = own.map(|(k, frame)| (k, Arc::make_mut(frame))).collect();
-        for (k, frame) in &mut own {
+        for ((k, frame), answers) in own.iter_mut().zip(answers) {
+            if scene.cases.len() > 1 {
+                answers.give_to(&scene, frame);
+                frame.say_what_holds_in_one_case(&scene, cases[*k].governing);
+            }
+            cases[*k].is_worst = frame.verdict != Verdict::Stable || worst[*k].is_finite();
             frame.cases = Some(std::mem::take(&mut cases[*k]));
             frame.vehicle = lines[*k].take();
         }
@@ -162,7 +273,9 @@ impl Analysis {
         notes: Vec<Note>,
     ) -> Analysis {
         // Results of the whole scene, such as a list of inputs, show the condition of the worst frame.
-        let scene = of_frames.get(worst_of(&frames)).unwrap_or(&given).clone();
+        let worst =
+            (1..frames.len()).fold(0, |worst, k| if frames[k].verdict > frames[worst].verdict { k } else { worst });
+        let scene = of_frames.get(worst).unwrap_or(&given).clone();
         Analysis { scene, frames, notes, cases: Some(CaseScenes { given, of_frames }) }
     }
 
@@ -170,6 +283,23 @@ impl Analysis {
     /// of its worst case. If the frame falls under the vehicle, the loads contain the axles.
     pub fn scene_of(&self, frame: usize) -> &Arc<Scene> {
         self.cases.as_ref().and_then(|cases| cases.of_frames.get(frame)).unwrap_or(&self.scene)
+    }
+
+    /// Returns the scene with the weights and loads of a condition of a frame.
+    pub(crate) fn scene_in(&self, frame: usize, condition: Condition) -> Arc<Scene> {
+        let found = &self.frames[frame];
+        let own = self.scene_of(frame);
+        let Some(given) = self.cases.as_ref().map(|cases| &cases.given).or(found.vehicle.as_ref().map(|_| own)) else {
+            return own.clone();
+        };
+        if condition == found.condition() {
+            return own.clone();
+        }
+        let case = condition.case.and_then(|case| given.in_cases().nth(case));
+        let bare = case.map_or_else(|| Scene::clone(given), |(_, scene)| scene);
+        let line = found.vehicle.as_ref().zip(condition.position);
+        let loaded = line.and_then(|(line, position)| vehicle::scene_with_axles(&bare, line.positions.get(position)?));
+        Arc::new(loaded.unwrap_or(bare))
     }
 
     /// Returns the results of a frame, with the scene of [`Analysis::scene_of`].
@@ -184,27 +314,35 @@ impl Analysis {
     }
 }
 
-/// Returns the index of the worst of several results; of equal ones the first.
-fn worst_of(found: &[Arc<FrameAnalysis>]) -> usize {
-    (1..found.len()).fold(0, |worst, next| if is_worse(&found[next], &found[worst]) { next } else { worst })
+impl FrameAnalysis {
+    /// Says which answers belong to the worst case alone.
+    fn say_what_holds_in_one_case(&mut self, scene: &Scene, governing: usize) {
+        let answers = [
+            ("sensitivity", self.sensitivity.is_some()),
+            ("capacity", self.capacity.is_some()),
+            ("movements", !self.movements.is_empty()),
+            ("wedging", self.only_by_wedging.is_some()),
+        ];
+        let own: Vec<&str> = answers.into_iter().filter(|(_, is_there)| *is_there).map(|(word, _)| word).collect();
+        if !own.is_empty() {
+            let (id, count) = (&scene.cases[governing].id, scene.cases.len());
+            self.notices.push(format!("{}: in the load case {id} alone, 1 of {count} cases", own.join(", ")));
+        }
+    }
 }
 
-/// True if a frame is worse in the first case than in the second.
-fn is_worse(first: &FrameAnalysis, second: &FrameAnalysis) -> bool {
-    let [a, b] = [first, second].map(reserve);
-    first.verdict > second.verdict || (first.verdict == second.verdict && a < b)
-}
-
-/// Returns the margins by which cases are compared: the load factor, then the tilt in degrees. A margin is infinite if it
-/// is not known or has no limit, such as the load factor of a case without loads.
-fn reserve(found: &FrameAnalysis) -> [f64; 2] {
-    let margins = found.margins.as_ref();
-    let least = |kind: MarginKind| {
-        let ends = margins.map_or([None; 2], |margins| [margins.least(kind), margins.most(kind)]);
-        ends.into_iter().flatten().map(f64::abs).fold(f64::INFINITY, f64::min)
+/// Returns the largest factor on the loads of a frame in a load case, and on its vehicle. It is infinite if it has no limit,
+/// or if it is not known: the frame needs its loads, or the deadline has passed.
+fn load_factor(scene: &Scene, number: usize, found: &FrameAnalysis, interfaces: &Interfaces) -> f64 {
+    let of = |component: &Assembly| {
+        let unloaded = decided_forces(&component.clone().with_load_factor(0.0))?.0;
+        largest_load_factor(component, &unloaded).value()
     };
-    let factor = margins.and_then(|margins| margins.most(MarginKind::LoadFactor));
-    [factor.unwrap_or(f64::INFINITY), least(MarginKind::Tilt)]
+    let loaded = !scene.loads.is_empty() && !is_late();
+    let components = loaded.then(|| effect::assembly_of(scene, &scene.frames[number], interfaces).components());
+    let of_loads = components.iter().flatten().filter_map(of);
+    let of_vehicle = found.vehicle.as_ref().and_then(|line| line.positions[line.governing?].factor);
+    of_loads.chain(of_vehicle).fold(f64::INFINITY, f64::min)
 }
 
 /// Returns the forces at each interface, as ranges without length. All cases have the same interfaces.

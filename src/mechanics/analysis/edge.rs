@@ -1,5 +1,6 @@
 //! [`Analysis::edges`]: the values at which a frame begins to fall if one parameter changes, and the mechanism there.
 
+use super::condition::Condition;
 use super::{Analysis, End, MarginKind};
 use crate::geometry::quarter_turn;
 use crate::mechanics::proof::Motion;
@@ -17,6 +18,8 @@ struct Limit<'a> {
     outward: f64,
     /// The mechanism at the limit.
     mechanism: &'a [Motion],
+    /// The condition that decides the limit.
+    condition: Condition,
 }
 
 impl Analysis {
@@ -47,7 +50,10 @@ impl Analysis {
             return Vec::new();
         };
         let limit = |(end, outward)| match margins.end(kind, end)? {
-            End::At { value, mechanism } if !mechanism.is_empty() => Some(Limit { at: *value, outward, mechanism }),
+            End::At { value, mechanism } if !mechanism.is_empty() => {
+                let condition = margins.margin(kind)?.conditions[end];
+                Some(Limit { at: *value, outward, mechanism, condition })
+            }
             _ => None,
         };
         let mut limits: Vec<Limit> = [(1, 1.0), (0, -1.0)].into_iter().filter_map(limit).collect();
@@ -62,14 +68,14 @@ impl Analysis {
     /// Returns the value at a limit, and the elementary mechanism slightly beyond it. Exactly at the limit, the power
     /// along the mechanism is 0; slightly beyond the limit it is positive.
     fn beyond(&self, frame: usize, kind: MarginKind, limit: Limit) -> (f64, Vec<Motion>) {
-        let Limit { at, outward, mechanism } = limit;
+        let Limit { at, outward, mechanism, condition } = limit;
         let beyond = match kind {
             MarginKind::Tilt => at + DEGREES_BEYOND_LIMIT * outward,
             MarginKind::LoadFactor => at * (1.0 + outward * DEGREES_BEYOND_LIMIT.to_radians()),
             _ => at + DEGREES_BEYOND_LIMIT.to_radians() * outward,
         };
         let setting = (kind.about().setting)(beyond);
-        let (gravity, mut scene) = (self.scene.gravity, Scene::clone(self.scene_of(frame)));
+        let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene_in(frame, condition)));
         scene.gravity = gravity * setting.along + quarter_turn(gravity) * setting.across;
         for load in scene.loads.iter_mut().filter(|load| !load.is_fixed) {
             load.force *= setting.loads;

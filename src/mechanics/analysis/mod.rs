@@ -27,6 +27,7 @@ mod wedged;
 pub(crate) mod acting;
 mod thrust_states;
 mod movement;
+mod condition;
 mod reach;
 mod vehicle;
 mod sensitivity;
@@ -57,6 +58,7 @@ pub use capacity::{
 pub(in crate::mechanics) use capacity::{extremes, with_grip};
 pub(crate) use cases::CaseScenes;
 pub use cases::{CaseResult, Envelope, LoadCases};
+pub use condition::Condition;
 pub use decide::Method;
 #[cfg(feature = "certificate")]
 pub(crate) use decide::mechanism_of;
@@ -185,8 +187,12 @@ pub struct FrameAnalysis {
     pub margins: Option<Margins>,
     /// How a margin changes with corners, weights, friction and loads, if requested.
     pub sensitivity: Option<Sensitivity>,
-    /// The results of the load cases, if the scene has any. All other results are those of the worst case.
+    /// The results of the load cases, if the scene has any. The margins, the placement tolerance, the removable blocks and
+    /// the influence line hold in all cases; all other results are those of the worst case.
     pub cases: Option<LoadCases>,
+    /// The margins and the placement tolerance in the condition of the other results alone, if they were also examined
+    /// in others.
+    pub(crate) alone: Option<Arc<Alone>>,
     /// How accurately the blocks must be placed, if requested and if the frame stands.
     pub placement: Option<Placement>,
     /// For each movement of a support that the scene lists: how the structure cracks and follows it. Empty if the frame
@@ -218,6 +224,31 @@ pub struct FrameAnalysis {
     pub solve: SolveReport,
     /// Remarks that are not errors, such as contacts too short to count.
     pub notices: Vec<String>,
+}
+
+/// Answers in a single condition.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Alone {
+    margins: Option<Margins>,
+    placement: Option<Placement>,
+}
+
+impl FrameAnalysis {
+    /// Returns the margins for the weights and loads to which the forces of the frame belong.
+    pub(crate) fn margins_alone(&self) -> Option<&Margins> {
+        self.alone.as_ref().map_or(self.margins.as_ref(), |alone| alone.margins.as_ref())
+    }
+
+    /// Returns the placement tolerance for the weights and loads to which the forces of the frame belong.
+    pub(crate) fn placement_alone(&self) -> Option<&Placement> {
+        self.alone.as_ref().map_or(self.placement.as_ref(), |alone| alone.placement.as_ref())
+    }
+
+    /// Returns the condition of the forces: the worst load case, with the vehicle if the frame falls under it.
+    pub fn condition(&self) -> Condition {
+        let case = self.cases.as_ref().map(|cases| cases.governing);
+        Condition { case, position: self.under_vehicle.and_then(|under| under.position) }
+    }
 }
 
 impl Analysis {

@@ -10,6 +10,7 @@
 use rayon::prelude::*;
 
 use super::capacity::{capacity_of_assembly, decided, with_grip};
+use super::condition::Condition;
 use super::{Analysis, FrameAnalysis, Options, Verdict};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::proof::{Motion, net_power};
@@ -32,6 +33,29 @@ pub struct Removable {
     pub force: Option<f64>,
     /// If the rest falls: the block that one more robot must hold, so that the rest stands.
     pub help: Option<Help>,
+    /// The condition in which the rest has its verdict.
+    pub condition: Condition,
+}
+
+impl Removable {
+    fn new(block: BlockId, rest: Verdict, force: Option<f64>, help: Option<Help>) -> Removable {
+        Removable { block, rest, force, help, condition: Condition::default() }
+    }
+
+    /// Returns what holds in two conditions: the worse verdict, the larger force, and the larger help. The flag says that
+    /// different blocks must be held in the two conditions, and no single one is known.
+    pub(super) fn and(self, other: Removable) -> (Removable, bool) {
+        let force = self.force.zip(other.force).map(|(own, other)| own.max(other));
+        let helps = |row: &Removable| row.help.is_some() || row.rest == Verdict::Stable;
+        let (help, differs) = match (self.help, other.help) {
+            (Some(own), Some(other)) if own.block != other.block => (None, true),
+            (Some(own), Some(other)) => (Some(Help { force: own.force.max(other.force), ..own }), false),
+            // Where there is no help, the rest stands without it, or nothing is known to help.
+            (own, others) => (own.or(others).filter(|_| helps(&self) && helps(&other)), false),
+        };
+        let worse = if other.rest > self.rest { other } else { self };
+        (Removable { force, help, ..worse }, differs)
+    }
 }
 
 /// The least help with which the rest of a frame stands.
@@ -66,7 +90,7 @@ pub(super) fn add_removables(scene: &Scene, interfaces: &Interfaces, frames: &mu
                 let is_held = |block: BlockId| frame.holds.iter().any(|hold| hold.block == block);
                 let late = |block: &BlockId| {
                     let force = (found.verdict == Verdict::Stable && !is_held(*block)).then_some(0.0);
-                    let row = Removable { block: *block, rest: Verdict::Undecided, force, help: None };
+                    let row = Removable::new(*block, Verdict::Undecided, force, None);
                     (row, force.is_none() && found.verdict != Verdict::Undecided)
                 };
                 rows.extend(blocks.iter().map(late));
@@ -127,7 +151,7 @@ fn of_block(
     };
     let is_missing = force.is_err() || help.is_err();
     let (force, help) = (force.unwrap_or_default(), help.unwrap_or_default());
-    (Removable { block, rest: rest.verdict, force, help }, is_missing)
+    (Removable::new(block, rest.verdict, force, help), is_missing)
 }
 
 /// No proof shows which force is the least.

@@ -121,7 +121,7 @@ impl Analysis {
     /// Computes the most central forces: forces that balance the frame with almost the largest safety kernel with
     /// which it stands. `None` if this kernel is unknown, or if the forces have no proof.
     fn central(&self, number: usize) -> Option<ThrustState> {
-        let kernel = self.frames[number].margins.as_ref()?.most(MarginKind::Kernel)?;
+        let kernel = self.frames[number].margins_alone()?.most(MarginKind::Kernel)?;
         let mut scene = self.scene_of(number).alone(number)?;
         scene.movements.clear();
         scene.vehicle = None;

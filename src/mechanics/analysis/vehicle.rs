@@ -14,6 +14,8 @@
 
 use std::sync::Arc;
 
+use super::cases::Answers;
+use super::condition::Condition;
 use super::decide::decided_forces;
 use super::margin::{END_TOL, End, largest_load_factor};
 use super::{Analysis, FrameAnalysis, Motion, Options, UndecidedReason, Verdict};
@@ -143,15 +145,45 @@ pub(super) fn decide_under_vehicle(
             let under = UnderVehicle { position: influence.is_some().then_some(own), alone: found.verdict };
             let mut results = Analysis::with(alone, options).frames;
             if let Some(results) = results.pop() {
-                *found = FrameAnalysis { under_vehicle: Some(under), ..Arc::unwrap_or_clone(results) };
+                let results = Arc::unwrap_or_clone(results);
+                let there = Condition { case: None, position: under.position };
+                *found = Answers::of(&results, there).in_place_of(results);
+                found.under_vehicle = Some(under);
                 governing[number] = Some(loaded);
             }
         }
         if found.under_vehicle.is_none() {
+            if let Some(position) = influence.as_ref().and_then(|line| line.governing)
+                && (found.margins.is_some() || found.placement.is_some())
+            {
+                // These answers must also hold at the governing position.
+                let loaded = with_axle_loads(whole, vehicle, &positions[position]);
+                let alone = Scene { vehicle: None, frames: vec![frame.clone()], ..loaded };
+                let asked = Options {
+                    capacity: None,
+                    sensitivity: None,
+                    removable: false,
+                    wedging: false,
+                    reach: None,
+                    margins: found.margins.is_some(),
+                    margin_kinds: options.wanted_margins().unwrap_or_default(),
+                    ..*options
+                };
+                let there = Analysis::with(alone, &asked).frames.pop().map(Arc::unwrap_or_clone);
+                if let Some(mut there) = there {
+                    there.removable.clone_from(&found.removable);
+                    let mut answers = Answers::of(found, Condition::default());
+                    answers.also(Answers::of(&there, Condition { case: None, position: Some(position) }));
+                    answers.give_to(whole, found);
+                    found.notices.push(format!(
+                        "margins, placement: examined without the vehicle and at its governing position, not at the other \
+                         {} positions",
+                        count - 1
+                    ));
+                }
+            }
             let answers = [
-                ("margins", found.margins.is_some()),
                 ("sensitivity", found.sensitivity.is_some()),
-                ("placement", found.placement.is_some()),
                 ("capacity", found.capacity.is_some()),
                 ("movements", !found.movements.is_empty()),
                 ("forces of removable blocks", found.removable.is_some()),
@@ -176,6 +208,12 @@ pub(super) fn at_governing_position(scene: &Scene, number: usize, interfaces: &I
     let positions = positions(scene, vehicle, &track(scene, frame, vehicle))?;
     let influence = influence(scene, frame, interfaces, vehicle, positions)?;
     Some(with_axle_loads(scene, vehicle, &influence.positions[influence.governing?]))
+}
+
+/// Returns a scene with the axles of its vehicle as loads at a position, and without the vehicle. `None` if it has none.
+pub(super) fn scene_with_axles(scene: &Scene, position: &VehiclePosition) -> Option<Scene> {
+    let loaded = with_axle_loads(scene, scene.vehicle.as_ref()?, position);
+    Some(Scene { vehicle: None, ..loaded })
 }
 
 impl Analysis {

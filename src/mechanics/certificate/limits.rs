@@ -36,7 +36,7 @@ impl Limits<'_> {
     pub fn all(&self, with_margins: bool) -> Vec<LimitForm> {
         let mut proofs = Vec::new();
         let given = self.assembly;
-        let margins = self.found.margins.as_ref().filter(|_| with_margins);
+        let margins = self.found.margins_alone().filter(|_| with_margins);
         if let Some(margins) = margins {
             for kind in MarginKind::of_frame() {
                 self.add_ends(&mut proofs, kind.word(), margins.of(kind), 1.0, &|value| self.changed(kind, value));
@@ -60,7 +60,7 @@ impl Limits<'_> {
         if let Some(capacity) = &self.found.capacity {
             self.add_capacity(&mut proofs, capacity);
         }
-        if let Some(placement) = &self.found.placement {
+        if let Some(placement) = self.found.placement_alone() {
             self.add_placement(&mut proofs, placement);
         }
         proofs

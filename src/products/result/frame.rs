@@ -3,7 +3,7 @@
 use super::Timing;
 use super::json::{Json, motions, object};
 use super::margin::{case, margins_of};
-use super::question::{capacity, movement, placement, reach, removable, vehicle, wedging};
+use super::question::{capacity, conditions, movement, placement, reach, removable, vehicle, wedging};
 use super::sensitivity::sensitivity;
 use crate::geometry::Point;
 use crate::mechanics::analysis::{Contact, EffectName, Failure, FrameAnalysis, Proof, RobotForce, SolveReport, Stages};
@@ -53,6 +53,7 @@ pub(super) fn frame<'a>(
         cases: Json::list(cases.iter().flat_map(|cases| &cases.each).map(case)).unless_empty(),
         governing_case: cases.map(|cases| &cases.each[cases.governing].id),
         envelope: Json::list(envelope).unless_empty(),
+        conditions: (cases.is_some() || frame.vehicle.is_some()).then(|| conditions(frame)),
         movements: Json::list(frame.movements.iter().map(|moved| movement(scene, moved))).unless_empty(),
         removable: frame.removable.as_ref().map(|rows| removable(scene, rows)),
         reach: frame.reach.as_ref().map(|found| reach(scene, found)),

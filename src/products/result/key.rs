@@ -204,6 +204,7 @@ const fn of_margin(of: &Type, kind: MarginKind) -> Key {
         }
         Interval => key(name, Interval, interval).unit(about.unit).when(about.condition),
         Exclusions => key(name, Exclusions, excluded).unit(about.unit).when(IF_NO_INTERVAL),
+        Objects => key(name, Objects, "at the lower and at the upper end").of(CONDITION).when(IF_MARGIN_REQUESTED),
         _ if sides => key(name, Object, beyond).of(MOTIONS_TO_SIDES),
         _ => key(name, Motions, beyond),
     }
@@ -222,6 +223,14 @@ static MARGINS: [Key; OWN + 5] = of_margins(Margin, &[
     key("notes", NameList, "remarks on the intervals, one sentence each").when("if there are remarks"),
     key("mechanisms", Object, "motion just beyond each margin; empty for a margin that is unbounded or null, and for a margin that was not requested").of(&MECHANISMS),
 ]);
+
+const CONDITION: &[Key] = &[
+    key("case", Text, "load case").when("if the scene has load cases"),
+    key("position", Count, "index of the position of the vehicle in `vehicle.positions`, from 0")
+        .when("if the vehicle decides"),
+];
+
+static CONDITIONS: [Key; OWN] = of_margins(Objects, &[]);
 
 #[rustfmt::skip]
 static INTERVALS: [Key; OWN + 1] = of_margins(Interval, &[
@@ -418,17 +427,22 @@ pub static KEYS: &[Key] = &[
                 key("proved", Number, "the frame stands if only this block is off by up to this").unit("m"),
             ]),
         ]),
-        key("cases", Objects, "load cases; all other results of the frame are those of the worst case").when("if the scene has load cases").of(&[
+        key("cases", Objects, "load cases; margins, placement tolerance and removable blocks of the frame hold in all of them, its other results are those of the worst case").when("if the scene has load cases").of(&[
             key("id", Text, "name of the case"),
             key("verdict", Word(&["stable", "undecided", "unstable"]), "verdict in this case"),
             key("load_factor", Margin, "largest factor on the loads in this case").when(IF_MARGIN_REQUESTED),
             key("tilt", Object, "largest turns of gravity in this case").when(IF_MARGIN_REQUESTED).of(TILT_SIDES),
         ]),
-        key("governing_case", Text, "the worst case: that with the worst verdict, then the least load factor, then the least tilt").when("if the scene has load cases"),
+        key("governing_case", Text, "the worst case: that with the worst verdict, then the least load factor").when("if the scene has load cases"),
         key("envelope", Objects, "the least and the greatest forces at each interface in the listed balances of all cases").when("if the scene has load cases").of(&[
             INTERFACE,
             key("normal", Pair, "least and greatest sum of the normal forces").unit("N"),
             key("friction", Pair, "least and greatest friction force").unit("N"),
+        ]),
+        key("conditions", Object, "the conditions that decide the answers: load cases, and positions of the vehicle").when("if the scene has load cases, or a vehicle and the frame stands without it").of(&[
+            key("margins", Object, "for each margin, the conditions that decide the lower and the upper end of its interval").when(IF_MARGINS_REQUESTED).of(&CONDITIONS),
+            key("placement", Objects, "the conditions that decide the proved tolerance, and the errors with which the frame falls").when("with `--placement`, if the frame stands").of(CONDITION),
+            key("removable", Objects, "for each row of `removable`, the condition that decides it").when("with `--removable`").of(CONDITION),
         ]),
         key("movements", Objects, "how the structure follows each movement of a support, for small displacements; a joint that slides also opens, by μ times the slip").when("if the scene lists `movements` and the frame stands").of(&[
             key("ground", Text, "part of the ground that moves"),

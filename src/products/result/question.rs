@@ -2,8 +2,8 @@
 
 use super::json::{Json, compact, motions, object};
 use crate::mechanics::analysis::{
-    FrameAnalysis, Influence, LoadCapacity, Motion, MovementOutcome, Placement, Reached, Removable, RuledOut, Slide,
-    SupportMovement, Verdict, Wedged,
+    Condition, FrameAnalysis, Influence, LoadCapacity, MarginKind, Motion, MovementOutcome, Placement, Reached,
+    Removable, RuledOut, Slide, SupportMovement, Verdict, Wedged,
 };
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::text::Word;
@@ -43,6 +43,25 @@ pub(super) fn removable<'a>(scene: &'a Scene, rows: &[Removable]) -> Json<'a> {
             help: row.help.map(|help| object! { block: block(scene, help.block), force: help.force }),
         }
     }))
+}
+
+/// The conditions that decide the answers of a frame with load cases or a vehicle.
+pub(super) fn conditions(frame: &FrameAnalysis) -> Json<'_> {
+    let one = |condition: &Condition| {
+        let case = condition.case.zip(frame.cases.as_ref()).map(|(number, cases)| cases.each[number].id.as_str());
+        object! { case: case, position: condition.position }
+    };
+    let both = |pair: &[Condition; 2]| Json::list(pair.iter().map(one));
+    let of_kind = |kind: MarginKind| {
+        let margin = frame.margins.as_ref().and_then(|margins| margins.margin(kind));
+        (kind.word(), margin.map(|margin| both(&margin.conditions)).into())
+    };
+    let rows = frame.removable.iter().flatten();
+    object! {
+        margins: frame.margins.as_ref().map(|_| Json::object(MarginKind::of_frame().map(of_kind))),
+        placement: frame.placement.as_ref().map(|found| both(&found.conditions)),
+        removable: Json::list(rows.map(|row| one(&row.condition))).unless_empty(),
+    }
 }
 
 /// What reaches the target of a margin.

@@ -121,6 +121,7 @@ fn frame() -> FrameAnalysis {
         exact: None,
         cases: None,
         under_vehicle: None,
+        alone: None,
         wedged: None,
         effects: vec![EffectReport { effect: EffectName::Friction, simulated: true, why: "two".into(), unknowns: 8 }],
         proof: Proof::Mechanism { power: 0.25, worst_violation: 1e-12 },

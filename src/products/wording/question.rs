@@ -5,8 +5,8 @@ use super::failure::{pair, shortened};
 use super::number::{NO_BREAK, amount, counted, digits, listed, place, quantity, three, three_down, three_up};
 use crate::geometry::Point;
 use crate::mechanics::analysis::{
-    Analysis, CaseResult, Change, ChangeKind, Crack, Cracked, FrameAnalysis, Influence, MarginKind, MovementOutcome,
-    Placement, PlacementLimit, Reached, Removable, SupportMovement, VehiclePosition, Verdict,
+    Analysis, CaseResult, Change, ChangeKind, Condition, Crack, Cracked, FrameAnalysis, Influence, MarginKind,
+    MovementOutcome, Placement, PlacementLimit, Reached, Removable, SupportMovement, VehiclePosition, Verdict,
 };
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::text::line;
@@ -14,15 +14,28 @@ use crate::text::line;
 /// Names the case to which the results of a frame belong; `None` if the scene has no cases.
 pub fn worst_case(found: &FrameAnalysis) -> Option<String> {
     let cases = found.cases.as_ref()?;
-    let governing = &cases.each[cases.governing];
-    let word = if is_compared(governing) { "worst case" } else { "case" };
-    Some(format!("{word}: {}", line(&governing.id)))
+    let word = if cases.is_worst { "worst case" } else { "case" };
+    Some(format!("{word}: {}", line(&cases.each[cases.governing].id)))
 }
 
-/// True if a case is known to be the worst: it does not stand, or the margins of all cases were computed. Otherwise it is
-/// the first of several cases that stand.
-fn is_compared(governing: &CaseResult) -> bool {
-    governing.verdict != Verdict::Stable || governing.margins.is_some()
+/// Names the conditions that decide an answer: `case wind`, `case wind and case snow with the vehicle`. `None` if the scene
+/// has neither cases nor a vehicle that decides.
+pub fn conditions(found: &FrameAnalysis, conditions: impl IntoIterator<Item = Condition>) -> Option<String> {
+    let name = |condition: Condition| {
+        let case = condition.case.zip(found.cases.as_ref()).map(|(case, cases)| {
+            let id = line(&cases.each[case].id);
+            if id.contains(' ') { format!("“{id}”") } else { id }
+        });
+        match (case, condition.position) {
+            (Some(case), None) => Some(format!("case {case}")),
+            (Some(case), Some(_)) => Some(format!("case {case} with the vehicle")),
+            (None, Some(_)) => Some("the vehicle".to_owned()),
+            (None, None) => None,
+        }
+    };
+    let mut names: Vec<String> = conditions.into_iter().filter_map(name).collect();
+    names.dedup();
+    (!names.is_empty()).then(|| listed(&names))
 }
 
 /// Returns a line for each case with its verdict and its margin, the worst case marked.
@@ -30,7 +43,7 @@ pub fn case_lines(found: &FrameAnalysis) -> Vec<String> {
     let Some(cases) = &found.cases else {
         return Vec::new();
     };
-    let mark = |number: usize| match is_compared(&cases.each[cases.governing]) {
+    let mark = |number: usize| match cases.is_worst {
         _ if number != cases.governing => "",
         true => " (the worst case)",
         false => " (its forces are listed)",
@@ -97,7 +110,8 @@ pub fn placement_sentence(scene: &Scene, frame_analysis: &FrameAnalysis, placeme
         PlacementLimit::Search => "; the search ended before the optimum".to_owned(),
         PlacementLimit::TimeLimit => "; the time limit ended the search".to_owned(),
     };
-    stands + &falls.unwrap_or_default() + &why
+    let governed = conditions(frame_analysis, placement.conditions).map(|names| format!("; governed by {names}"));
+    stands + &falls.unwrap_or_default() + &why + &governed.unwrap_or_default()
 }
 
 /// At most this many blocks are named.

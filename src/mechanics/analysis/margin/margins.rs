@@ -5,6 +5,9 @@
 
 use super::interval::{End, Interval};
 use super::kind::{MarginKind, MarginKinds};
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::analysis::condition::Condition;
+use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::{RobotId, digits};
 
 /// The values of one parameter at which a frame stands.
@@ -18,6 +21,33 @@ pub struct Margin {
     pub limit: Option<(RobotId, usize)>,
     /// The values at which the frame stands.
     pub interval: Interval,
+    /// The conditions that decide the lower and the upper end of the interval.
+    pub conditions: [Condition; 2],
+}
+
+impl Margin {
+    /// Creates the margin of a frame in a single condition.
+    pub(super) fn new(kind: MarginKind, limit: Option<(RobotId, usize)>, interval: Interval) -> Margin {
+        Margin { kind, limit, interval, conditions: Default::default() }
+    }
+
+    /// Returns the margin in all conditions of this margin and of another one of the same kind.
+    fn and(&self, other: &Margin) -> Margin {
+        let interval = self.interval.clone().intersection(other.interval.clone());
+        let is_others = |own: Option<&End>, other: Option<&End>, both: Option<&End>| both == other && both != own;
+        let conditions = match interval {
+            Interval::Between { .. } => {
+                let low = is_others(self.interval.low(), other.interval.low(), interval.low());
+                let high = is_others(self.interval.high(), other.interval.high(), interval.high());
+                [if low { other } else { self }.conditions[0], if high { other } else { self }.conditions[1]]
+            }
+            // No value is left because of one of them, or because of both.
+            _ if self.interval == interval => self.conditions,
+            _ if other.interval == interval => other.conditions,
+            _ => [self.conditions[0], other.conditions[1]],
+        };
+        Margin { interval, conditions, ..*self }
+    }
 }
 
 /// How far a frame is from its limit of stability: the interval of each parameter at which it stands.
@@ -53,7 +83,12 @@ impl Margins {
     /// Returns the values of a parameter at which the frame stands. `None` if they were not requested, if the parameter
     /// has no meaning in the scene, or for [`MarginKind::Robots`].
     pub fn of(&self, kind: MarginKind) -> Option<&Interval> {
-        self.each.iter().find(|margin| margin.kind == kind && margin.limit.is_none()).map(|margin| &margin.interval)
+        self.margin(kind).map(|margin| &margin.interval)
+    }
+
+    /// Returns the margin of this kind. `None` as for [`Margins::of`].
+    pub fn margin(&self, kind: MarginKind) -> Option<&Margin> {
+        self.each.iter().find(|margin| margin.kind == kind && margin.limit.is_none())
     }
 
     /// Returns the lower (0) or the upper (1) end of an interval, where the frame begins to fall if the value moves away
@@ -86,10 +121,38 @@ impl Margins {
         robots.collect::<Vec<_>>().into_iter()
     }
 
+    /// Returns the margins of a frame in all conditions of two lists: those of `self` and those of `other`. Each list comes
+    /// with the verdict and the motion in its condition: without a meaning there, such as a factor on loads where no load
+    /// acts, a parameter does not change that verdict.
+    pub(in crate::mechanics::analysis) fn and(
+        (own, own_verdict): (&Margins, (Verdict, &[Motion])),
+        (other, other_verdict): (&Margins, (Verdict, &[Motion])),
+    ) -> Margins {
+        let same = |margin: &Margin, list: &Margins| {
+            list.each.iter().find(|own| (own.kind, own.limit) == (margin.kind, margin.limit)).cloned()
+        };
+        let missing = |margin: &Margin, list: &Margins, (verdict, motion): (Verdict, &[Motion])| {
+            let all = if margin.kind.is_signed() { Interval::UNBOUNDED } else { Interval::FROM_ZERO };
+            let conditions = list.each.first().map_or(margin.conditions, |own| own.conditions);
+            Margin { interval: Interval::of_verdict(verdict, motion, all), conditions, ..margin.clone() }
+        };
+        let both = own
+            .each
+            .iter()
+            .map(|margin| margin.and(&same(margin, other).unwrap_or_else(|| missing(margin, other, other_verdict))));
+        let new = other.each.iter().filter(|margin| same(margin, own).is_none());
+        let mut each: Vec<Margin> =
+            both.chain(new.map(|margin| missing(margin, own, own_verdict).and(margin))).collect();
+        each.sort_by_key(|margin| (margin.kind as usize, margin.limit.map(|limit| limit.0)));
+        let mut notes = own.notes.clone();
+        notes.extend(other.notes.iter().filter(|note| !own.notes.contains(note)).cloned());
+        Margins { kinds: own.kinds, each, notes }
+    }
+
     /// Returns a sentence for each withheld margin, with the reason. `robot` returns the name of a robot.
     pub(in crate::mechanics::analysis) fn withheld(&self, robot: impl Fn(RobotId) -> String) -> Vec<String> {
         let mut list = Vec::new();
-        for Margin { kind, limit, interval } in &self.each {
+        for Margin { kind, limit, interval, .. } in &self.each {
             let [least, largest] = match limit {
                 None => kind.about().notice.map(str::to_owned),
                 Some((id, limit)) => {
@@ -126,7 +189,7 @@ mod tests {
     fn found(each: impl IntoIterator<Item = (MarginKind, Option<usize>, Interval)>) -> Margins {
         let each = each.into_iter().map(|(kind, limit, interval)| {
             let limit = limit.map(|limit| (RobotId(0), limit));
-            Margin { kind, limit, interval }
+            Margin::new(kind, limit, interval)
         });
         Margins { kinds: MarginKinds::ALL, each: each.collect(), notes: Vec::new() }
     }

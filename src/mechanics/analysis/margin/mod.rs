@@ -176,7 +176,7 @@ fn intersect(components: &[(&Part, &Margins)], kinds: MarginKinds) -> Margins {
             known => known.cloned(),
         });
         let interval = (kinds.has(kind) && has_meaning).then(|| each.fold(all(), Interval::intersection))?;
-        Some(Margin { kind, limit: None, interval })
+        Some(Margin::new(kind, None, interval))
     };
     let each = MarginKind::of_frame().filter_map(margin).chain(robots(components)).collect();
     Margins { kinds, each, notes: Vec::new() }

@@ -39,7 +39,7 @@ pub(super) fn margins(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_
     let is_asked = kinds.has(MarginKind::Robots) && trial.holds().len() <= MAX_ROBOTS;
     let robots = if is_asked { robots(trial, stands) } else { Vec::new() };
     let mut each = Vec::new();
-    let mut add = |kind: MarginKind, interval: Interval| each.push(Margin { kind, limit: None, interval });
+    let mut add = |kind: MarginKind, interval: Interval| each.push(Margin::new(kind, None, interval));
     // The interval of tilts may follow from the horizontal load, so compute the horizontal load if either of the two
     // margins is requested.
     if kinds.has(HorizontalLoad) || kinds.has(Tilt) {
@@ -243,7 +243,7 @@ fn robots(trial: &mut Trial, stands: bool) -> Vec<Margin> {
     let robots = trial.holds();
     let mut found = Vec::with_capacity(3 * robots.len());
     group(trial, [0, 3 * robots.len()], stands, &mut found);
-    let margin = |(k, interval)| Margin { kind: MarginKind::Robots, limit: Some((robots[k / 3], k % 3)), interval };
+    let margin = |(k, interval)| Margin::new(MarginKind::Robots, Some((robots[k / 3], k % 3)), interval);
     found.into_iter().enumerate().map(margin).collect()
 }
 

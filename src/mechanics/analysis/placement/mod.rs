@@ -18,6 +18,7 @@ use self::affine::{GAP, MOST, Robust, largest_tolerance};
 use self::model::Model;
 use self::pattern::Errors;
 use crate::geometry::{Vector, quarter_turn};
+use crate::mechanics::analysis::condition::Condition;
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::mechanics::solve::{DeadlineGuard, deadline, is_late};
@@ -58,6 +59,8 @@ pub struct Placement {
     pub blocks: Vec<BlockPlacement>,
     /// Why the proved tolerance is not larger.
     pub limited_by: PlacementLimit,
+    /// The condition in which the proved tolerance is least, and that of the errors with which the frame falls.
+    pub conditions: [Condition; 2],
     /// The proof of each component.
     pub(crate) proofs: Vec<PlacementProof>,
 }
@@ -150,20 +153,25 @@ words! {
 /// Computes the placement tolerance of a frame that stands, from its components.
 pub(super) fn find_placement<'a>(scene: &Scene, components: impl Iterator<Item = &'a Assembly>) -> Option<Placement> {
     let found = components.filter_map(|component| of_component(scene, component));
-    found.reduce(|a, b| {
-        let falls_first = |p: &Placement| p.falls_at.unwrap_or(f64::INFINITY);
-        let (mut worse, other) = if falls_first(&b) < falls_first(&a) { (b, a) } else { (a, b) };
-        if other.proved < worse.proved {
-            (worse.proved, worse.limited_by) = (other.proved, other.limited_by);
-        }
-        worse.blocks.extend(other.blocks);
-        worse.proofs.extend(other.proofs);
-        worse.blocks.sort_by_key(|own| own.block);
-        worse
-    })
+    found.reduce(Placement::and)
 }
 
 impl Placement {
+    /// Returns what holds for two components together, or for the same frame in two conditions.
+    pub(super) fn and(self, other: Placement) -> Placement {
+        let falls_first = |p: &Placement| p.falls_at.unwrap_or(f64::INFINITY);
+        let (mut worse, other) = if falls_first(&other) < falls_first(&self) { (other, self) } else { (self, other) };
+        if other.proved < worse.proved {
+            (worse.proved, worse.limited_by) = (other.proved, other.limited_by);
+            worse.conditions[0] = other.conditions[0];
+        }
+        worse.blocks.extend(other.blocks);
+        worse.proofs.extend(other.proofs);
+        worse.blocks.sort_by(|a, b| a.block.cmp(&b.block).then(a.proved.total_cmp(&b.proved)));
+        worse.blocks.dedup_by_key(|own| own.block);
+        worse
+    }
+
     /// Returns the sense of the additional moment of each body in the pattern, 1 for anticlockwise, and the assembly with
     /// the errors of this pattern, of a size in metres.
     pub(crate) fn with_errors(&self, scene: &Scene, component: &Assembly, error: f64) -> (Vec<f64>, Assembly) {
@@ -206,6 +214,7 @@ fn of_component(scene: &Scene, component: &Assembly) -> Option<Placement> {
         block: None,
         blocks: Vec::new(),
         limited_by: PlacementLimit::Balance,
+        conditions: Default::default(),
         proofs: Vec::new(),
     };
     if component.bodies.len() > MAX_BODIES {

@@ -44,7 +44,7 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
         governing.words = vec![words];
         if let Some(influence) = found.vehicle.as_ref().filter(|_| found.verdict == Verdict::Stable) {
             governing = Governing {
-                parameter: Some(Parameter::LoadFactor),
+                kind: Some(MarginKind::LoadFactor),
                 at: "this load",
                 mechanism: &influence.mechanism,
                 friction: None,
@@ -82,9 +82,18 @@ fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governin
             governing.friction = (margin.kind == MarginKind::Friction).then_some(*value);
             governing.at = margin.kind.about().at;
         }
-        governing.words.push(words);
+        governing.words.push(words + &elsewhere(margin, end, found));
     }
     governing
+}
+
+/// Names the load case of an end in brackets if the forces of the frame belong to another one.
+fn elsewhere(margin: &StatedMargin<'_>, end: Option<&End>, found: &FrameAnalysis) -> String {
+    let is_low = end.zip(margin.interval.low()).is_some_and(|(end, low)| std::ptr::eq(end, low));
+    let condition = margin.conditions[usize::from(!is_low)];
+    let is_same = condition.case == found.condition().case;
+    let name = question::conditions(found, [condition]).filter(|_| !is_same);
+    name.map_or_else(String::new, |name| format!(" ({name})"))
 }
 
 /// Returns the needed friction as a fraction of the least present friction.

@@ -10,9 +10,10 @@ pub use governing::headline;
 pub use governing::{Governing, governing};
 
 use super::number::{amount, digits, three_down, three_up};
+use super::question;
 use crate::geometry::range_of;
 use crate::mechanics::analysis::{
-    End, Exclusion, FALLS, FrameAnalysis, Interval, MarginKind, Margins, STANDS, UNDECIDED, Verdict,
+    Condition, End, Exclusion, FALLS, FrameAnalysis, Interval, Margin, MarginKind, Margins, STANDS, UNDECIDED, Verdict,
 };
 use crate::mechanics::scene::{Scene, Unit};
 use crate::text;
@@ -79,15 +80,17 @@ pub struct StatedMargin<'a> {
     pub present: Option<(f64, f64)>,
     /// The position of the current value.
     pub position: Position,
+    /// The conditions that decide the lower and the upper end.
+    pub conditions: [Condition; 2],
+    /// The names of the conditions that decide the ends, if the scene has load cases or a vehicle.
+    pub governed: Option<String>,
 }
 
 impl StatedMargin<'_> {
     /// Describes the interval and the current value of the margin: `stands from 0.3 to 2.4; now 1`.
     pub fn sentence(&self) -> String {
-        match self.present_words() {
-            None => self.stands(),
-            Some(present) => format!("{}; {present}", self.stands()),
-        }
+        let governed = self.governed.as_ref().map(|names| format!("governed by {names}"));
+        [Some(self.stands()), self.present_words(), governed].into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
 
     /// Writes a value of the parameter.
@@ -295,7 +298,7 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
         Verdict::Undecided => Position::Unknown,
     };
     let margin = |kind: MarginKind| {
-        let interval = margins.of(kind)?;
+        let Margin { interval, conditions, .. } = margins.margin(kind)?;
         let present = match kind {
             MarginKind::Friction => friction(frame_analysis),
             _ => kind.about().present.or(Some(scene.kernel)).map(|present| (present, present)),
@@ -304,7 +307,9 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
             MarginKind::Friction => friction_position(interval, present, position),
             _ => position,
         };
-        Some(StatedMargin { kind, unit: None, name: kind.about().name.to_owned(), interval, present, position })
+        let governed = governed(frame_analysis, interval, *conditions);
+        let name = kind.about().name.to_owned();
+        Some(StatedMargin { kind, unit: None, name, interval, present, position, conditions: *conditions, governed })
     };
     let mut list: Vec<StatedMargin<'_>> = MarginKind::of_frame().filter_map(margin).collect();
     list.sort_by_key(|margin| margin.kind != MarginKind::LoadFactor);
@@ -313,6 +318,18 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
         list[..=first].rotate_right(1);
     }
     list
+}
+
+/// Names the conditions that decide the ends of an interval. An end of the range of the parameter, such as friction 0, is
+/// decided by none.
+fn governed(found: &FrameAnalysis, interval: &Interval, conditions: [Condition; 2]) -> Option<String> {
+    let is_decided = |end: Option<&End>| match end {
+        None => true,
+        Some(End::At { mechanism, .. }) => !mechanism.is_empty(),
+        Some(end) => *end != End::Unbounded,
+    };
+    let ends = [interval.low(), interval.high()].into_iter().zip(conditions);
+    question::conditions(found, ends.filter(|(end, _)| is_decided(*end)).map(|(_, condition)| condition))
 }
 
 /// Returns the margins for the force and torque limits of each robot.
@@ -334,6 +351,8 @@ fn robot_limits<'a>(scene: &Scene, margins: &'a Margins, position: Position) -> 
             interval,
             present: Some((limit, limit)),
             position,
+            conditions: Default::default(),
+            governed: None,
         }));
     }
     list

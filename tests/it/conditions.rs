@@ -1,0 +1,161 @@
+//! Answers of scenes with load cases or a vehicle hold in every condition: compared with analyses of each condition alone.
+
+use drystone::analysis::{Condition, FrameAnalysis, Interval, MarginKind, MarginKinds, Options, Verdict};
+use drystone::result::{Layout, Timing, to_json};
+use drystone::{Analysis, Scene};
+use serde_json::{Value, json};
+
+use crate::random::Random;
+use crate::structure::scene;
+
+const WALL: &str = include_str!("../../assets/questions/retaining-wall.json");
+const BRIDGE: &str = include_str!("../../assets/questions/bridge-vehicle.json");
+
+fn asked() -> Options {
+    Options::default().margins(true).placement(true).removable(true)
+}
+
+fn frame(scene: Scene, options: &Options) -> FrameAnalysis {
+    FrameAnalysis::clone(&Analysis::with(scene, options).frames[0])
+}
+
+/// Both ends of an interval; a lower end above the upper end if it is empty.
+fn ends(interval: &Interval) -> [f64; 2] {
+    match interval {
+        Interval::Empty(_) => [1.0, 0.0],
+        Interval::Between { low, high } => {
+            [low.value().unwrap_or(f64::NEG_INFINITY), high.value().unwrap_or(f64::INFINITY)]
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn answers_of_random_load_cases_are_those_of_the_worst_of_each() {
+    let mut random = Random::new(62);
+    let mut decided = [0; 2];
+    for number in 0..12 {
+        let mut file: Value = serde_json::from_str(WALL).expect("JSON");
+        let mut factor = || (random.below(5) as f64) * 0.4;
+        let case = |id: &str, of: &mut dyn FnMut() -> f64| {
+            let loads = json!({ "earth": of(), "people": of(), "wind": of() });
+            json!({ "id": id, "weights": 0.6 + 0.3 * of(), "loads": loads })
+        };
+        let [a, b] = [case("a", &mut factor), case("b", &mut factor)];
+        let mut with = |cases: Value| {
+            file["cases"] = cases;
+            frame(scene(&file), &asked())
+        };
+        let (both, alone) = (with(json!([a, b])), [with(json!([a])), with(json!([b]))]);
+        assert_eq!(Some(both.verdict), alone.iter().map(|own| own.verdict).max(), "{number}");
+        let margins = |found: &FrameAnalysis| found.margins.clone().expect("requested");
+        for kind in [MarginKind::Friction, MarginKind::Tilt, MarginKind::Kernel, MarginKind::LoadFactor] {
+            let list = margins(&both);
+            let found = list.margin(kind).expect("a margin");
+            let own = alone.each_ref().map(|one| margins(one).of(kind).map(ends));
+            let [low, high] = [f64::max as fn(f64, f64) -> f64, f64::min].map(|of| {
+                let end = usize::from(of(0.0, 1.0) == 0.0);
+                own.iter().flatten().map(|ends| ends[end]).reduce(of).expect("an end")
+            });
+            if low > high {
+                assert!(matches!(found.interval, Interval::Empty(_)), "{number} {kind:?} {found:?}");
+                continue;
+            }
+            assert_eq!(ends(&found.interval), [low, high], "{number} {kind:?}");
+            // The named case has this end.
+            for (end, Condition { case, .. }) in found.conditions.into_iter().enumerate() {
+                let case = case.expect("a case");
+                decided[case] += 1;
+                assert_eq!(own[case].expect("an interval")[end], [low, high][end], "{number} {kind:?}");
+            }
+        }
+        let placed = alone.each_ref().map(|own| own.placement.as_ref().map(|own| own.proved));
+        let least = placed[0].zip(placed[1]).map(|(a, b)| a.min(b));
+        assert_eq!(both.placement.as_ref().map(|own| own.proved), least, "{number}");
+        let rows = |found: &FrameAnalysis| found.removable.clone().expect("requested");
+        for ((row, a), b) in rows(&both).into_iter().zip(rows(&alone[0])).zip(rows(&alone[1])) {
+            assert_eq!(row.rest, a.rest.max(b.rest), "{number}");
+            assert_eq!(row.force, a.force.zip(b.force).map(|(a, b)| a.max(b)), "{number}");
+        }
+    }
+    assert!(decided.iter().all(|count| *count > 10), "{decided:?}");
+}
+
+#[test]
+fn the_worst_case_does_not_depend_on_what_is_asked() {
+    let file: Value = serde_json::from_str(WALL).expect("JSON");
+    let tilt = MarginKinds::new(&[MarginKind::Tilt]);
+    for options in [Options::default(), Options::default().margins(true).margin_kinds(tilt), asked()] {
+        let found = frame(scene(&file), &options);
+        let cases = found.cases.as_ref().expect("cases");
+        assert_eq!(cases.each[cases.governing].id, "earth and people");
+        assert_eq!(found.margins.is_some(), options.margins);
+    }
+}
+
+#[test]
+fn a_wall_with_three_cases_has_the_margins_of_the_worst_of_each() {
+    let found = frame(scene(&serde_json::from_str(WALL).expect("JSON")), &asked());
+    let right = found.margins.as_ref().and_then(|margins| margins.most(MarginKind::Tilt)).expect("a tilt");
+    assert!((right - 32.218).abs() < 1e-3, "{right}");
+    let placed = found.placement.expect("it stands").proved;
+    assert!((placed - 0.132_04).abs() < 1e-5, "{placed}");
+}
+
+#[test]
+fn results_name_the_case_or_the_position_that_decides_each_answer() {
+    let json = |file: &str| -> Value {
+        let analysis = Analysis::with(scene(&serde_json::from_str(file).expect("JSON")), &asked());
+        serde_json::from_str(&to_json(&analysis, Timing::LeftOut, Layout::OneLine)).expect("JSON of the result")
+    };
+    let own = |of: Value| of["frames"][0]["conditions"].clone();
+    let wall = own(json(WALL));
+    let [people, wind] = ["earth and people", "wind"].map(|id| json!({ "case": id }));
+    assert_eq!(wall["margins"]["tilt"], json!([people, wind]));
+    assert_eq!((&wall["margins"]["load_factor"][1], &wall["margins"]["friction"][0]), (&people, &people));
+    assert_eq!((&wall["margins"]["kernel"][1], &wall["margins"]["horizontal_load"][1]), (&people, &wind));
+    assert_eq!((&wall["placement"], &wall["removable"][0]["case"]), (&json!([wind, wind]), &json!("earth alone")));
+    let bridge = json(BRIDGE);
+    let position = &bridge["frames"][0]["vehicle"]["governing"];
+    let bridge = own(bridge.clone());
+    for kind in ["friction", "tilt", "horizontal_load"] {
+        assert_eq!(&bridge["margins"][kind][0]["position"], position, "{kind}");
+    }
+    for kind in ["tilt", "horizontal_load", "kernel", "load_factor"] {
+        assert_eq!(&bridge["margins"][kind][1]["position"], position, "{kind}");
+    }
+    assert_eq!(&bridge["placement"][0]["position"], position);
+    // A beam of weight 6 from x = -1 to 2 on a floor from 0 to 1 falls under an axle at its left end.
+    let falls = json!({ "drystone": 1, "ground": [{ "polygon": [[0, -1], [1, -1], [1, 0], [0, 0]] }],
+        "blocks": [{ "polygon": [[-1, 0], [2, 0], [2, 1], [-1, 1]], "weight": 6 }],
+        "vehicle": { "axles": [{ "weight": 4 }] } });
+    let falls = json(&falls.to_string());
+    let governing = &falls["frames"][0]["governing_position"];
+    assert_eq!(&own(falls.clone())["removable"][0]["position"], governing);
+}
+
+#[test]
+fn margins_of_a_bridge_hold_with_its_vehicle_at_the_governing_position() {
+    let file: Value = serde_json::from_str(BRIDGE).expect("JSON");
+    let analysis = Analysis::with(scene(&file), &asked());
+    let found = &analysis.frames[0];
+    assert_eq!(found.verdict, Verdict::Stable);
+    let line = found.vehicle.as_ref().expect("an influence line");
+    let governing = line.governing.expect("a position");
+    let mut loaded = file;
+    let axles = &line.positions[governing].axles;
+    loaded["loads"] = axles
+        .iter()
+        .map(|(axle, block, at)| {
+            let weight = loaded["vehicle"]["axles"][*axle]["weight"].as_f64().expect("a weight");
+            json!({ "block": analysis.scene.blocks()[block.0].id, "at": [at.x, at.y], "force": [0, -weight] })
+        })
+        .collect();
+    loaded.as_object_mut().expect("an object").remove("vehicle");
+    let there = frame(scene(&loaded), &asked());
+    for kind in [MarginKind::Tilt, MarginKind::Kernel, MarginKind::LoadFactor] {
+        let [whole, own] = [found, &there].map(|of| of.margins.as_ref().and_then(|of| of.most(kind)).expect("a limit"));
+        assert!((whole - own).abs() <= 1e-5 * own, "{kind:?}: {whole} {own}");
+    }
+    assert!(found.notices.iter().any(|notice| notice.contains("not at the other")));
+}
