@@ -6,6 +6,7 @@ mod file;
 mod line;
 mod mutation;
 mod summary;
+mod theme;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -104,8 +105,8 @@ fn collect(root: &Path, folder: &Path, files: &mut Vec<String>) {
     }
 }
 
-/// Every scene in `tests/scenes`, including those of the thesis's figures, with facts, drawings and pictures in each
-/// theme.
+/// Every scene in `tests/scenes`, including those of the thesis's figures, with facts, drawing and picture in its first
+/// theme. For the other themes see `theme.rs`.
 #[test]
 fn the_gallery_equals_its_references() {
     drystone::snapshot::assert_scenes!("tests/scenes");
