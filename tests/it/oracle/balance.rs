@@ -4,7 +4,7 @@
 //! The normal of an interface is its segment turned by 90°. It is not scaled to length 1, because a unit normal is
 //! usually irrational. Normal forces and friction are both in units of that length, so |T| ≤ μ(N1 + N2) is unchanged.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use dashu_ratio::RBig;
 use drystone::internals::proof::Proof;
@@ -91,37 +91,38 @@ impl<'a> Balance<'a> {
         }
     }
 
-    /// The smallest and the largest sum of the forces that act on one block, newtons, among all forces of the whole
-    /// group whose sum is at most `least`.
+    /// For each block the smallest and the largest sum of the forces that act on it, newtons, among all forces of the
+    /// whole group whose sum is at most `least`.
     ///
     /// The sum may exceed `least` by a rounding error, because the costs are lengths, and these are rounded square
     /// roots.
-    pub fn sum_on(&self, sum: Sum, block: usize, least: &RBig) -> [f64; 2] {
+    pub fn sums_on_blocks(&self, sum: Sum, least: &RBig) -> Vec<[f64; 2]> {
         let most = least * exact(1.0 + 4.0 * f64::EPSILON);
-        // The least sum of the costs that count. `counts` is called with whether an unknown acts on the block.
-        let least_sum = |counts: &dyn Fn(bool) -> bool| {
-            let mut program = self.program(sum);
-            program.rows.push(Row {
-                entries: program.costs.iter().cloned().enumerate().collect(),
-                bound: most.clone(),
-                equality: false,
-            });
-            let own = |unknown: usize| {
-                let first = self.first_row(block);
-                let rows = &program.rows[first..first + 3];
-                rows.iter().any(|row| row.entries.iter().any(|e| e.0 == unknown))
-            };
-            let owned: Vec<bool> = (0..program.costs.len()).map(own).collect();
-            for (cost, own) in program.costs.iter_mut().zip(owned) {
-                if !counts(own) {
-                    *cost = RBig::ZERO;
-                }
-            }
-            program.least().expect("the optimum fits")
-        };
-        let low = least_sum(&|own| own);
-        let rest = least_sum(&|own| !own);
-        [low.to_f64_fast(), (&most - rest).to_f64_fast()]
+        let mut program = self.program(sum);
+        program.rows.push(Row {
+            entries: program.costs.iter().cloned().enumerate().collect(),
+            bound: most.clone(),
+            equality: false,
+        });
+        // For each block the costs of the unknowns that act on it, and of all others.
+        let objectives: Vec<Vec<RBig>> = (0..self.blocks.len())
+            .flat_map(|place| {
+                let rows = &program.rows[3 * place..3 * place + 3];
+                let acts: BTreeSet<usize> = rows.iter().flat_map(|row| row.entries.iter().map(|e| e.0)).collect();
+                [true, false].map(|own| {
+                    let costs = program.costs.iter().enumerate();
+                    costs.map(|(k, cost)| if acts.contains(&k) == own { cost.clone() } else { RBig::ZERO }).collect()
+                })
+            })
+            .collect();
+        let optima = program.optima(&objectives).expect("the optimum fits");
+        let sums: Vec<RBig> = optima
+            .iter()
+            .zip(&objectives)
+            .map(|(x, costs)| x.iter().zip(costs).fold(RBig::ZERO, |sum, (v, c)| sum + v * c))
+            .collect();
+        let sides = sums.chunks_exact(2);
+        sides.map(|side| [side[0].to_f64_fast(), (&most - &side[1]).to_f64_fast()]).collect()
     }
 
     /// Whether no adhesion gives equilibrium, even with an imbalance up to the tolerance.

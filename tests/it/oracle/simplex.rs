@@ -47,14 +47,7 @@ impl LinearProgram {
         if !table.reach_feasible() {
             return None;
         }
-        let x = table.optimum(&self.costs);
-        // Check the solution against the program, in case the tableau is wrong.
-        for row in &self.rows {
-            let sum = row.entries.iter().fold(RBig::ZERO, |sum, (k, v)| sum + v * &x[*k]);
-            let kept = if row.equality { sum == row.bound } else { sum <= row.bound };
-            assert!(kept, "the solution violates a row");
-        }
-        assert!(x.iter().all(|v| *v >= RBig::ZERO), "the solution has a negative unknown");
+        let x = self.optimum(&mut table, &self.costs);
         Some(x.iter().zip(&self.costs).fold(RBig::ZERO, |sum, (v, c)| sum + v * c))
     }
 
@@ -66,7 +59,19 @@ impl LinearProgram {
             return None;
         }
         // Each search starts from the last optimum.
-        Some(objectives.iter().map(|costs| table.optimum(costs)).collect())
+        Some(objectives.iter().map(|costs| self.optimum(&mut table, costs)).collect())
+    }
+
+    /// The unknowns at the optimum of an objective, checked against the program, in case the tableau is wrong.
+    fn optimum(&self, table: &mut Table, costs: &[RBig]) -> Vec<RBig> {
+        let x = table.optimum(costs);
+        for row in &self.rows {
+            let sum = row.entries.iter().fold(RBig::ZERO, |sum, (k, v)| sum + v * &x[*k]);
+            let kept = if row.equality { sum == row.bound } else { sum <= row.bound };
+            assert!(kept, "the solution violates a row");
+        }
+        assert!(x.iter().all(|v| *v >= RBig::ZERO), "the solution has a negative unknown");
+        x
     }
 }
 

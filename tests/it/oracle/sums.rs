@@ -211,8 +211,7 @@ fn compare_group(
     if off > SUM {
         wrong.push(format!("{sum:?} {:?}: {found} instead of {least}, off by {off:.1e}", group.blocks));
     } else if closely {
-        for block in &group.blocks {
-            let [low, high] = group.sum_on(sum, *block, &exact);
+        for (block, [low, high]) in group.blocks.iter().zip(group.sums_on_blocks(sum, &exact)) {
             let allowed = BLOCK * scene.blocks()[*block].weight + rounded;
             let found = of(&sizes, &[*block]);
             if found < low - allowed - SUM * low || found > high + allowed + SUM * high {
