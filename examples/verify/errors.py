@@ -46,7 +46,8 @@ def is_valid(frame):
     """Whether the errors leave each joint its length; and, if the frame stands for all, whether none is left out."""
     errors, is_falling = frame.get("errors", {"size": 0}), frame["verdict"] != "stable"
     scales, shares = ([value for _, value in errors.get(key, [])] for key in ("scales", "pattern"))
-    are_inside = all(index in frame["placed"] for key in ("scales", "pattern") for index, _ in errors.get(key, []))
+    lists = [[index for index, _ in errors.get(key, [])] for key in ("scales", "pattern")]
+    are_inside = all({*own} <= {*frame["placed"]} and len(own) == len({*own}) for own in lists)
     is_fine = errors["size"] >= 0 and min([0, *scales]) >= 0 and max([0, *map(abs, shares)]) <= 1 and are_inside
     kernel, insets = Fraction(frame.get("kernel", 0)) / 2, [(inset(c, frame), c) for c in frame["contacts"] if is_fine]
     room = [by == 0 or (kernel + by <= Fraction(1, 2) if len(c["points"]) == 2 else is_falling) for by, c in insets]

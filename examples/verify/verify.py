@@ -6,6 +6,7 @@ import sys
 from fractions import Fraction
 from itertools import chain, combinations, product
 from errors import additions, inset, is_valid, pattern
+from shape import run
 from vectors import REST, apart2, cross, dot, left, plus, solve, sub, threes, wrench
 
 TAN_OF_ANGLE = Fraction(1, 100)  # the largest angle between a contact and the edges that it lies at
@@ -160,6 +161,8 @@ def form(file, frame):
     blocks = {k for k, body in enumerate(bodies) if not body["ground"]}
     joins = lambda on, other: on in placed and on != other and (other in placed or bodies[other]["ground"])
     moved = [m["body"] for m in frame["motion"] or []] + [body for own, _ in frame["still"] for body in own]
+    moved += (frame.get("force") or [])[:1]
+    points = [(len({*map(tuple, c["points"])}), len(c["points"]), 2 - ("normal" in c)) for c in contacts]
     numbers = [file["distance"], file["shortest"], *(body["weight"] for body in bodies), frame.get("friction", 0)]
     numbers += [c["friction"] for c in contacts] + [limit or 0 for limit in limits_of(frame)]
     rules = {
@@ -167,17 +170,18 @@ def form(file, frame):
         "a body": all(body["is_fine"] for body in bodies),
         "a number": min(numbers) >= 0 and 0 <= frame.get("kernel", 0) <= 1,
         "a placed body": {*moved} <= {*placed} <= blocks and len(placed) == len({*placed}),
-        "a contact": all(len(c["points"]) == 2 - ("normal" in c) and joins(*c["bodies"]) for c in contacts),
+        "a contact": all(len({*counts}) == 1 for counts in points) and all(joins(*c["bodies"]) for c in contacts),
         "an error": is_valid(frame),
         "a grip": len(limits_of(frame)) == 3 * len(grips) and all(g["body"] in placed for g in grips),
     }
     return [f"{name} is not valid" for name, is_fine in rules.items() if not is_fine]
 
-def main(path):
+def main(file):
     checks = {"stable": ("stands", "inside", stands, "forces"), "unstable": ("falls", "beyond", falls, "motion")}
-    with open(path, encoding="utf-8") as text:
-        file = json.load(text, parse_float=lambda digits: Fraction(float(digits)), parse_constant=Fraction)
-    farthest, is_exact, frames = [0.0], True, {frame["frame"]: frame for frame in file["frames"]}
+    frames = {frame["frame"]: frame for frame in file["frames"]}
+    farthest, is_exact = [0.0], len(frames) > 0
+    if len(frames) < len(file["frames"]):
+        raise ValueError("two frames have the same number")
     file["bodies"] = [prepare(body) for body in file["bodies"]]
     for entry in file["frames"] + file.get("limits", []):
         word, side, check, proof = checks.get(entry["verdict"], ("undecided", "at", None, None))
@@ -192,4 +196,4 @@ def main(path):
     print("contacts as the scene lists them" if file["listed"] else f"farthest contact point: {max(farthest):.1e} m")
     return is_exact
 
-sys.exit(not all([main(path) for path in sys.argv[1:]]))
+sys.exit(not run(main, sys.argv[1:]))

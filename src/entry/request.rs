@@ -350,6 +350,9 @@ impl FigureArgs {
     pub(crate) fn for_scene(&self, options: &figure::Options, scene: &Scene) -> Result<figure::Options, String> {
         let zoom = self.zoom.as_deref().map(|name| figure::named_block(scene, name)).transpose()?;
         let shows_one = self.kind.shows_one_block();
+        if !shows_one {
+            figure::check_panels(scene, "choose one with --frame")?;
+        }
         let block = shows_one.then(|| figure::free_block(scene, self.block.as_deref())).transpose()?;
         Ok(figure::Options { zoom, block, ..options.clone() })
     }

@@ -27,6 +27,13 @@ impl TimeLimit {
         TimeLimit { began: Some(Instant::now()), ..self }
     }
 
+    /// Returns the time that is left until the end, and so much longer.
+    #[cfg(feature = "cli")]
+    pub(crate) fn left(self, longer: Duration) -> Duration {
+        let end = self.end().and_then(|end| end.checked_add(longer));
+        end.map_or(Duration::MAX, |end| end.saturating_duration_since(Instant::now()))
+    }
+
     /// Returns the time at which the work ends. `None` if no clock can show it.
     pub(crate) fn end(self) -> Option<Instant> {
         self.began.unwrap_or_else(Instant::now).checked_add(self.given)

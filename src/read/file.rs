@@ -1,5 +1,5 @@
-//! [`bytes`] and [`text`]: read a whole file that may come from a stranger, up to a limit. [`ending`]: the extension of
-//! its name.
+//! [`bytes`] and [`text`]: read a whole file that may come from a stranger, up to a limit. [`open`] refuses what is no
+//! file. [`ending`]: the extension of its name.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -8,9 +8,22 @@ use std::path::Path;
 /// The largest size of a file in bytes. Reading lists of very short numbers takes about 70 times the size in memory.
 pub const MAX_BYTES: u64 = 64_000_000;
 
+/// What is wrong with a pipe or a device in place of a file.
+pub const NO_FILE: &str =
+    "it is a pipe, a device or a folder; write it to a file first, or name it - on standard input";
+
+/// Opens a file. A pipe is not opened: it may never have an end, or not even a beginning.
+pub fn open(path: &Path) -> io::Result<File> {
+    if std::fs::metadata(path)?.is_file() {
+        File::open(path)
+    } else {
+        Err(io::Error::new(io::ErrorKind::InvalidInput, NO_FILE))
+    }
+}
+
 /// Reads a file. If it is too large, it is not read, and the error says its size, the limit and what to do.
 pub fn bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let file = File::open(path)?;
+    let file = open(path)?;
     match file.metadata()?.len() {
         size if size > MAX_BYTES => Err(too_large(size)),
         _ => all(file),

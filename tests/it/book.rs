@@ -1,6 +1,6 @@
 //! The mdBook preprocessor: how it changes the chapters of a book, and the messages if it cannot.
 
-use drystone::report::book::illustrate;
+use drystone::report::book::{illustrate, illustrate_text};
 use serde_json::{Value, json};
 
 const SCENE: &str = r#"{ "drystone": 1, "title": "An overhang",
@@ -74,4 +74,14 @@ fn every_broken_scene_is_reported_with_its_chapter_and_line() {
         let problems = illustrate(no_book).expect_err("no book").to_string();
         assert!(problems.contains("mdbook runs the command itself"), "{problems}");
     }
+}
+
+/// A text of a stranger may name any file. What is in a file that is no scene is not quoted.
+#[test]
+fn the_content_of_a_file_that_is_no_scene_is_not_quoted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("secret.txt"), "password = hunter2\n").expect("writable");
+    let text = "```drystone file=secret.txt\n```\n";
+    let refused = illustrate_text(text, &folder.path().join("page.md"), "page").expect_err("no scene").to_string();
+    assert!(refused.contains("secret.txt is no scene file") && !refused.contains("hunter2"), "{refused}");
 }

@@ -8,6 +8,7 @@ use std::process::Command;
 use drystone::analysis::{Options, Verdict};
 use drystone::certificate::{Certificate, Checked};
 use drystone::{Analysis, Scene};
+use serde_json::{Value, json};
 
 use crate::oracle::{number_of, random, small};
 
@@ -327,6 +328,79 @@ fn changed_frames_need_every_contact_and_no_block_counts_twice() {
         pages[0]
     );
     assert!(proved_by_python(&pages[1]).iter().all(|proved| !proved), "{:#?}", pages[1]);
+}
+
+/// Changes of a certificate that the page does not allow. Each is refused as a whole by both checkers.
+#[test]
+fn keys_and_types_that_are_not_on_the_page_prove_nothing() {
+    let right = certificate(&Scene::from_json(ROBOT).expect("a scene"), &Options::default().margins(true)).to_json();
+    let right: Value = serde_json::from_str(&right).expect("JSON");
+    let changes: [(&str, &str, Value); 14] = [
+        ("/limits/0", "gravity", json!([0, -1])),
+        ("/limits/0", "contacts", json!([])),
+        ("/limits/0/change", "placed", json!([1])),
+        ("/limits/0/change", "contacts", json!([])),
+        ("/frames/0", "friction", json!(9)),
+        ("/frames/0", "errors", json!({ "size": 0 })),
+        ("/frames/0", "frame", json!(1.0)),
+        ("/frames/0", "placed", json!([true, 2])),
+        ("/frames/0", "gravity", json!([0, -1, 0])),
+        ("/frames/0/contacts/0", "bodies", json!([1.0, 0])),
+        ("/bodies/0", "ground", json!(1)),
+        ("/bodies/1", "weight", json!("8")),
+        ("", "listed", json!(null)),
+        ("", "gravity?", json!([0, -1])),
+    ];
+    let mut texts = Vec::new();
+    for (place, key, value) in changes {
+        let mut changed = right.clone();
+        changed.pointer_mut(place).expect("a place")[key] = value;
+        texts.push(changed.to_string());
+    }
+    let mut twice = right.clone();
+    twice["frames"].as_array_mut().expect("frames").push(right["frames"][0].clone());
+    let right = right.to_string();
+    texts.push(right.replacen('{', r#"{"listed":true,"#, 1));
+    texts.push(format!("\u{feff}{right}"));
+    texts.push("[".repeat(100_000));
+    texts.push(twice.to_string());
+    for text in &texts {
+        let read = Certificate::from_json(text.as_bytes());
+        assert!(read.is_err() || read.is_ok_and(|file| file.check().is_err()), "{}", &text[..text.len().min(2000)]);
+    }
+    let Some(pages) = by_python(&texts) else { return };
+    for (text, page) in texts.iter().zip(&pages) {
+        let is_refused = page.len() == 1 && page[0].contains("proves nothing");
+        assert!(is_refused, "{page:?}\n{}", &text[..text.len().min(2000)]);
+    }
+}
+
+/// A certificate without frames is right, but proves nothing. A hole that is larger than its outline is no structure.
+#[test]
+fn certificates_of_nothing_are_not_proved() {
+    let right = certificate(&Scene::from_json(ROBOT).expect("a scene"), &Options::default());
+    let (mut none, mut hollow) = (right.clone(), right.clone());
+    none.frames.clear();
+    let corners = hollow.bodies[1].outline.iter().rev();
+    let corners: Vec<_> = corners.map(|[x, y]| [2.0 * x, 2.0 * y]).collect();
+    hollow.bodies[1].holes = vec![corners];
+    assert!(!none.check().expect("a structure").is_exact());
+    let refused = hollow.check().expect_err("a hole without stone around it").join("; ");
+    assert!(refused.contains("larger than its outline"), "{refused}");
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("none.json"), none.to_json()).expect("a file");
+    let ran = Command::new(env!("CARGO_BIN_EXE_drystone")).args(["verify", "none.json"]).current_dir(&folder).output();
+    let ran = ran.expect("the program");
+    assert_eq!(ran.status.code(), Some(3), "{ran:?}");
+    let mut python = Command::new("python3");
+    python
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/verify/verify.py"))
+        .arg(folder.path().join("none.json"));
+    if let Ok(ran) = python.output() {
+        assert_eq!(ran.status.code(), Some(1), "{ran:?}");
+    }
+    let Some(pages) = by_python(&[hollow.to_json()]) else { return };
+    assert_eq!(proved_by_python(&pages[0]), [false], "{pages:#?}");
 }
 
 #[test]

@@ -8,12 +8,13 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use drystone::analysis::{Analysis, Verdict};
+use drystone::analysis::{Accuracy, Analysis, CapacityRequest, MarginKind, Options, Reach, Verdict};
 use drystone::result::{Layout, Timing, to_json};
 use drystone::{Scene, figure, output};
 use serde_json::{Map, Value, json};
 
 use crate::random::Random;
+use crate::structure::{arch, block, on_floor, rectangle, tower, wall};
 
 /// The number of mutants of each scene.
 const EACH: u64 = 24;
@@ -276,4 +277,41 @@ fn numbers_whose_products_overflow_or_vanish_are_refused() {
     let scene = Scene::from_json(&least.to_string()).expect("just large enough");
     assert!(scene.blocks().iter().all(|block| block.weight > 0.0));
     assert_eq!(Analysis::new(&scene).frames[0].verdict, Verdict::Unstable, "it overhangs by two thirds");
+}
+
+/// Every question has an answer, and no program of a question has a number that is not finite, with joints without length
+/// (a kernel of 1), nearly without, without friction, and with more friction than any stone has.
+#[test]
+fn every_question_is_answered_at_the_ends_of_kernel_and_friction() {
+    let crossed = |mut file: Value| {
+        file["ground"][0]["id"] = json!("floor");
+        file["movements"] = json!([{ "ground": "floor", "rotation": 0.1, "translation": [0.001, 0] }]);
+        file["vehicle"] = json!({ "axles": [{ "weight": 5 }], "step": 0.7 });
+        file["loads"] = json!([{ "block": file["blocks"][1]["id"], "force": [0.4, -1] }]);
+        file
+    };
+    let single = on_floor(
+        0.5,
+        vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 9.81), block("b", rectangle(3.0, 0.0, 2.0, 1.0), 4.0)],
+    );
+    for file in [crossed(single), crossed(tower(3, 0.5)), crossed(wall(2, 3)), arch(5, 0.4, 0.7)] {
+        for (kernel, friction) in
+            [0.0, 0.5, 0.999_999_999, 1.0 - f64::EPSILON, 1.0].iter().flat_map(|k| [0.0, 0.6, 1e6].map(|f| (*k, f)))
+        {
+            let mut file = file.clone();
+            (file["kernel"], file["friction"]) = (json!(kernel), json!(friction));
+            let scene = Scene::from_json(&file.to_string()).expect("a scene");
+            let held = scene.block_named("1").or(scene.block_named("a")).or(scene.block_named("v1")).expect("a block");
+            let all = Options::default().margins(true).wedging(true).placement(true).removable(true);
+            let all = all.sensitivity(MarginKind::Tilt).capacity(CapacityRequest::of_block(held));
+            for options in [all.reach(Reach { kind: MarginKind::Tilt, value: 3.0 }), all.accuracy(Accuracy::Proved)] {
+                let analysis = Analysis::with(&scene, &options);
+                let text = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
+                assert!(serde_json::from_str::<Value>(&text).is_ok(), "kernel {kernel}, friction {friction}");
+                for placement in analysis.frames.iter().filter_map(|frame| frame.placement.as_ref()) {
+                    assert!(kernel < 1.0 || placement.proved == 0.0, "friction {friction}: {}", placement.proved);
+                }
+            }
+        }
+    }
 }

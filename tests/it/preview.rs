@@ -76,9 +76,22 @@ fn the_preview_answers_only_its_own_page_on_this_machine() {
     let preview = Preview::start(&[]);
     assert!(preview.address.starts_with("127.0.0.1:"), "{}", preview.address);
     let host = format!("Host: {}", preview.address);
+    let port = preview.address.rsplit(':').next().expect("a port");
+    let [local, own, other] = [
+        format!("Host: localhost:{port}"),
+        format!("Origin: http://{}", preview.address),
+        format!("Origin: http://{}.evil.example", preview.address),
+    ];
     for (lines, status) in [
         (vec!["GET / HTTP/1.1", &host], "200"),
-        (vec!["GET / HTTP/1.1", "Host: localhost:9"], "200"),
+        (vec!["GET / HTTP/1.1", &local], "200"),
+        (vec!["GET /preview.js HTTP/1.1", &local, &own], "200"),
+        (vec!["GET / HTTP/1.1", "Host: localhost:9"], "403"),
+        (vec!["GET / HTTP/1.1", "Host: localhost"], "403"),
+        (vec!["GET / HTTP/1.1", "Host: 127.0.0.1:evil.example"], "403"),
+        (vec!["GET / HTTP/1.1", &host, "Origin: null"], "403"),
+        (vec!["GET /preview.js HTTP/1.1", &host, "Origin: https://evil.example"], "403"),
+        (vec!["GET /preview.js HTTP/1.1", &host, &other], "403"),
         (vec!["GET / HTTP/1.1", &host, "Sec-Fetch-Site: cross-site"], "200"),
         (vec!["GET /preview.js HTTP/1.1", &host, "sec-fetch-site: same-origin"], "200"),
         (vec!["GET / HTTP/1.1", "Host: evil.example"], "403"),

@@ -78,7 +78,7 @@ impl Accuracy {
             let text = form(&study).map_err(undrawn)?;
             files.push((path.clone(), text.into_bytes()));
         }
-        destination::write(&files, Existing::Replace)?;
+        destination::write(&files, Existing::Replace, &self.output)?;
         for (path, _) in &files {
             terminal.note(&format!("{}: {}", path.display(), counted(frames, "frame")));
         }

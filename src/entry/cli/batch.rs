@@ -98,7 +98,7 @@ impl Batch {
         let target = Target { path: self.output.as_deref(), resume: self.resume, settings: self.settings(&work), form };
         let mut output = Output::open(&target, &inputs.files, &mut records)?;
         if let Some(folder) = &self.render {
-            destination::make_folder(folder)?;
+            destination::make_folder(folder, folder)?;
         }
         pace.skipped(output.done());
         let mut ending = ExitStatus::Done;
@@ -360,7 +360,7 @@ impl PictureOutput {
         match self.picture.bytes(drawing, self.format, &self.fonts) {
             Ok(bytes) => {
                 let file = (self.folder.join(&name), bytes);
-                destination::write(&[file], Existing::Replace)?;
+                destination::write(&[file], Existing::Replace, &[])?;
                 Ok(PictureOutcome::Drawn(name))
             }
             Err(CliError::CommandLine(why) | CliError::NotWritten { why, .. }) => Ok(PictureOutcome::Refused(why)),

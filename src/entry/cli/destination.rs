@@ -36,6 +36,14 @@ impl Destination {
         }
     }
 
+    /// Returns the path of the file that the user typed; empty for a folder and for standard output.
+    pub(crate) fn typed(&self) -> &[PathBuf] {
+        match self {
+            Destination::File(path) => std::slice::from_ref(path),
+            Destination::Stdout | Destination::Folder(_) => &[],
+        }
+    }
+
     /// Returns the format of the picture. For a file, its extension decides, and `--format` must agree with it.
     /// Otherwise `--format` decides, and the default is SVG.
     pub(crate) fn format(&self, requested: Option<Format>) -> Result<Format, CliError> {
@@ -94,9 +102,9 @@ pub(crate) fn refuse_overwrites(outputs: &[PathBuf], inputs: &[&Path]) -> Result
 }
 
 /// Writes all files or none. `existing` says whether existing files are replaced. If they are not, an existing file is
-/// an error, and its message mentions `--force`.
-pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), CliError> {
-    write_whole(files, existing).map_err(|unwritten| CliError::NotWritten {
+/// an error, and its message mentions `--force`. Only the paths in `typed`, which the user wrote, may be links.
+pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing, typed: &[PathBuf]) -> Result<(), CliError> {
+    write_whole(files, existing, typed).map_err(|unwritten| CliError::NotWritten {
         what: unwritten.path.display().to_string(),
         why: match unwritten.why.kind() {
             io::ErrorKind::AlreadyExists => "the file exists; --force replaces it".into(),
@@ -114,13 +122,17 @@ pub(crate) fn file(output: Option<&PathBuf>) -> Option<&Path> {
 pub(crate) fn deliver(terminal: &Terminal, file: Option<&Path>, bytes: Vec<u8>, force: bool) -> Result<(), CliError> {
     let existing = if force { Existing::Replace } else { Existing::Keep };
     match file {
-        Some(path) => write(&[(path.to_owned(), bytes)], existing),
+        Some(path) => write(&[(path.to_owned(), bytes)], existing, &[path.to_owned()]),
         None => terminal.print_bytes(&bytes),
     }
 }
 
-/// Creates a folder and its parents, if they do not exist.
-pub(crate) fn make_folder(folder: &Path) -> Result<(), CliError> {
+/// Creates a folder and its parents, if they do not exist. Only `typed`, this folder or one above it, may be a link.
+pub(crate) fn make_folder(folder: &Path, typed: &Path) -> Result<(), CliError> {
+    if let Some(link) = folder.ancestors().take_while(|above| *above != typed).find(|above| above.is_symlink()) {
+        let why = "it is a link, which may lead anywhere; delete it, or write to another place";
+        return Err(CliError::not_written(link.display(), why));
+    }
     fs::create_dir_all(folder).map_err(|error| CliError::not_written(folder.display(), error))
 }
 

@@ -64,8 +64,8 @@ impl Figures {
         let style: Vec<&Path> = self.look.file().into_iter().collect();
         destination::refuse_overwrites(&paths, &style)?;
         let count = files.len();
-        destination::make_folder(&self.output)?;
-        destination::write(&files, Existing::Replace)?;
+        destination::make_folder(&self.output, &self.output)?;
+        destination::write(&files, Existing::Replace, &[])?;
         terminal.note(&format!("{}: {} figures, {count} files", self.output.display(), plates.len()));
         Ok(ExitStatus::Done)
     }
@@ -117,9 +117,9 @@ impl Shapes {
         let style: Vec<&Path> = self.look.file().into_iter().collect();
         destination::refuse_overwrites(std::slice::from_ref(&path), &style)?;
         if let Destination::Folder(folder) = &destination {
-            destination::make_folder(folder)?;
+            destination::make_folder(folder, folder)?;
         }
-        destination::write(&[(path, bytes)], Existing::Replace)?;
+        destination::write(&[(path, bytes)], Existing::Replace, destination.typed())?;
         Ok(ExitStatus::Done)
     }
 }

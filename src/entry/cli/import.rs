@@ -10,7 +10,7 @@ use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::page::Page;
 use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
-use crate::entry::value::FrameChoice;
+use crate::entry::value::{FrameChoice, TimeLimit, seconds};
 use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{Note, NoteCode, Scene};
 use crate::pictures::output::attachment::is_picture;
@@ -104,6 +104,10 @@ pub(crate) struct Import {
     /// PDF needs no option
     #[arg(long)]
     source: bool,
+    /// Stop after this many seconds, and write nothing
+    #[arg(long, value_name = "SECONDS", env = "DRYSTONE_TIME_LIMIT", hide_env_values = true,
+        value_parser = |typed: &str| seconds(typed).map(TimeLimit::started))]
+    time_limit: Option<TimeLimit>,
     /// Print the log of the import as JSON; the scene then needs a file (-o)
     #[arg(long, requires = "output")]
     json: bool,

@@ -78,8 +78,8 @@ impl Markdown {
         }));
         let paths: Vec<PathBuf> = files.iter().map(|(path, _)| path.clone()).collect();
         destination::refuse_overwrites(&paths, &[&self.input])?;
-        destination::make_folder(folder)?;
-        destination::write(&files, Existing::Replace)?;
+        destination::make_folder(folder, folder)?;
+        destination::write(&files, Existing::Replace, std::slice::from_ref(&self.output))?;
         terminal.note(&format!("{}: {count} {}", self.output.display(), if count == 1 { "figure" } else { "figures" }));
         Ok(ExitStatus::Done)
     }

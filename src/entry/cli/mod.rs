@@ -43,17 +43,20 @@ mod table;
 mod terminal;
 mod verify;
 mod watch;
+mod watchdog;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::terminal::{OutputArgs, Terminal};
+use crate::entry::cli::watchdog::Watchdog;
+use crate::entry::value::TimeLimit;
 
 const AFTER_LONG_HELP: &str = "\
 A verdict of 'stands' means that a balance of forces exists for rigid blocks at rest, laid dry (no cohesion). A balance \
@@ -122,8 +125,9 @@ pub fn run() -> ExitCode {
 
 /// Runs a command line, whose first word is the name of the program, and returns the exit code.
 pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
-    let line = match CommandLine::try_parse_from(join_list(words)) {
-        Ok(line) => line,
+    let given = CommandLine::command().try_get_matches_from(join_list(words));
+    let (line, limit) = match given.and_then(|given| Ok((CommandLine::from_arg_matches(&given)?, time_limit(&given)))) {
+        Ok(read) => read,
         Err(error) => {
             let printed = error.print().and_then(|()| io::stdout().flush());
             return refused(&error, printed).number();
@@ -131,8 +135,16 @@ pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
     };
     signal::listen();
     let terminal = Terminal::new(line.output);
+    let _watchdog = Watchdog::start(limit, &terminal);
     let ending = line.command.run(&terminal).unwrap_or_else(|complaints| complain(&terminal, &complaints));
     ending.number()
+}
+
+/// Returns the time limit of a whole command. `batch` has one for each scene, and `--watch` one for each run.
+fn time_limit(given: &ArgMatches) -> Option<TimeLimit> {
+    let (name, own) = given.subcommand().filter(|(name, _)| *name != "batch")?;
+    let watches = name == "render" && own.get_flag("watch");
+    own.try_get_one::<TimeLimit>("time_limit").ok().flatten().filter(|_| !watches).copied()
 }
 
 /// Returns the exit status after `clap` has printed help, the version or an error. `printed` says whether the printing

@@ -1,6 +1,6 @@
 //! [`Picture`]: the options for picture files, which `render`, `batch` and `shapes` share.
 
-use std::fs;
+use std::io::Read as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -15,6 +15,7 @@ use crate::pictures::output::format::{Animate, FormatError, Settings};
 use crate::pictures::output::page_width;
 use crate::pictures::output::png::{self, Compression, PngError, Size};
 use crate::pictures::output::svg::{self, Words};
+use crate::read::file;
 use crate::text::{Word, typed_word};
 
 request! {
@@ -194,12 +195,20 @@ impl Picture {
     /// Returns an error if the PNG of a drawing would be too large. The arguments are the width and height of the
     /// drawing, or lower bounds of them.
     pub(crate) fn check_png(&self, (width, height): (f64, f64)) -> Result<(), CliError> {
+        // The bound 0 of a width that the layout chooses says nothing about a height that is a multiple of it.
+        if width == 0.0 && !matches!(self.size(), Size::Scale(_)) {
+            return Ok(());
+        }
         png::check(width, height, self.size()).map_err(png_error)
     }
 
     /// Returns the built-in fonts and the fonts of `--font`.
     pub(crate) fn fonts(&self) -> Result<Fonts, CliError> {
-        let read = |path: &PathBuf| fs::read(path).map_err(|error| CliError::not_read(path.display(), error));
+        let read = |path: &PathBuf| {
+            let mut bytes = Vec::new();
+            let read = file::open(path).and_then(|mut font| font.read_to_end(&mut bytes));
+            read.map(|_| bytes).map_err(|error| CliError::not_read(path.display(), error))
+        };
         let files = self.fonts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         Fonts::with(files).map_err(|number| {
             let name = self.fonts[number].display();

@@ -48,9 +48,7 @@ impl Plan {
         let mut file: SceneFile = parsed(&source.text()).map_err(|error| CliError::not_read(&name, error))?;
         file.tolerate(self.level.contact_tolerance);
         let options = self.level.options();
-        let (robots, own) = (usize::from(self.robots), self.scene.clone());
-        let found = source::in_time(&self.level, move || source::isolated(&own, || plan(file, robots, &options)));
-        let planned = match found.map_err(|late| CliError::not_read(&name, late))?? {
+        let planned = match source::isolated(&self.scene, || plan(file, usize::from(self.robots), &options))? {
             Ok(planned) => planned,
             Err(PlanError::SceneError(problems)) => return Err(CliError::Scene { name, problems }.into()),
             Err(why) => {

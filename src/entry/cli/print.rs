@@ -90,8 +90,8 @@ impl Manual {
         collect(&command, &mut pages).map_err(|error| CliError::not_written(self.folder.display(), error))?;
         let files: Vec<(PathBuf, Vec<u8>)> =
             (pages.into_iter()).map(|(name, page)| (self.folder.join(name), page)).collect();
-        destination::make_folder(&self.folder)?;
-        destination::write(&files, Existing::Replace)?;
+        destination::make_folder(&self.folder, &self.folder)?;
+        destination::write(&files, Existing::Replace, &[])?;
         terminal.note(&format!("wrote {} pages into {}", files.len(), self.folder.display()));
         Ok(ExitStatus::Done)
     }

@@ -85,6 +85,7 @@ impl Render {
         if scenes.iter().any(|file| file == Path::new("-")) {
             return Err(vec!["--watch needs files; standard input (-) cannot be read again".into()]);
         }
+        source::refuse_streams(&scenes)?;
         match self.serve {
             Some(port) => preview::serve(self, port, scenes, terminal),
             None => watch::repeat(|| self.watched(), terminal, || self.started().once(terminal)),

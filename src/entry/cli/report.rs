@@ -2,7 +2,6 @@
 
 mod task;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -24,12 +23,13 @@ use crate::mechanics::analysis::{self, Analysis, MarginKind, MarginKinds};
 use crate::pictures::drawing::Theme;
 use crate::pictures::output::file::Existing;
 use crate::pictures::output::fonts::Fonts;
+use crate::products::figure;
 use crate::products::report::entry::{Entry, File, ReportOptions, Side, compared};
 use crate::products::report::page::{Form, Piece, Refused, Report as Page};
 use crate::products::result::Timing;
 use crate::products::study::{TOLERANCES, study};
 use crate::products::wording::number::counted;
-use crate::read::file::ending;
+use crate::read::file::{self, ending};
 
 /// Write a report on scenes: verdicts with reasons, figures, forces, margins and proofs
 #[derive(Debug, Args)]
@@ -273,6 +273,12 @@ impl Report {
             Ok(read) => read,
             Err(wrong) => return Ok(Err(wrong)),
         };
+        for source in read.iter().filter(|_| form != Form::Json) {
+            if let Err(why) = figure::check_panels(&source.scene, "write a .json report") {
+                let complaint = CliError::CommandLine(format!("{}: {why}", source.name()));
+                return Ok(Err(vec![(refused(&source.path, &complaint), complaint)]));
+            }
+        }
         if form == Form::Pdf {
             // A PDF contains text in the built-in fonts of drystone. Code points replace characters that these fonts
             // lack.
@@ -345,10 +351,10 @@ pub(crate) fn write(report: Page, form: Form, output: &Path) -> Result<(), CliEr
     let mut folders: Vec<&Path> =
         files.iter().skip(usize::from(form != Form::Split)).filter_map(|f| f.0.parent()).collect();
     folders.dedup();
-    for folder in folders {
-        destination::make_folder(folder)?;
+    for own in folders {
+        destination::make_folder(own, folder)?;
     }
-    destination::write(&files, Existing::Replace)
+    destination::write(&files, Existing::Replace, &[output.to_owned()])
 }
 
 fn undone(error: &dyn std::error::Error) -> CliError {
@@ -412,8 +418,7 @@ fn script(given: Option<&Path>) -> Result<String, CliError> {
         })?,
     };
     let shown = path.display();
-    let script =
-        fs::read_to_string(&path).map_err(|error| CliError::not_read(&shown, format!("{error}; {SCRIPT_MADE}")))?;
+    let script = file::text(&path).map_err(|error| CliError::not_read(&shown, format!("{error}; {SCRIPT_MADE}")))?;
     let version = env!("CARGO_PKG_VERSION");
     let found = script
         .strip_prefix("// drystone ")

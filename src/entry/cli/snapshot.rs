@@ -144,12 +144,14 @@ impl Snapshot {
     /// Writes the pages, and the JUnit file if `--junit` is given.
     fn write_reports(&self, report: &CheckOutcome, mut written: Vec<(PathBuf, Vec<u8>)>) -> Result<(), CliError> {
         if let Some((picture, _)) = written.iter().find(|(file, _)| read::file::ending(file) == "png") {
-            destination::make_folder(picture.parent().unwrap_or(Path::new("")))?;
+            let mut folders = picture.ancestors().skip(1);
+            let [own, above] = [(); 2].map(|()| folders.next().unwrap_or(Path::new("")));
+            destination::make_folder(own, above)?;
         }
         if let Some(file) = &self.junit {
             written.push((file.clone(), ci::junit(report).into_bytes()));
         }
-        destination::write(&written, Existing::Replace)
+        destination::write(&written, Existing::Replace, &self.outputs())
     }
 
     /// Returns an error if options contradict each other, or if the review page is not an .html file. If the variable
@@ -179,9 +181,12 @@ impl Snapshot {
                  --accept-in-ci if this is meant",
             );
         }
-        let outputs: Vec<PathBuf> =
-            self.review.iter().flatten().chain(&self.summary).chain(&self.junit).cloned().collect();
-        destination::refuse_overwrites(&outputs, &[])
+        destination::refuse_overwrites(&self.outputs(), &[])
+    }
+
+    /// Returns the files that the user named for pages and lists.
+    fn outputs(&self) -> Vec<PathBuf> {
+        self.review.iter().flatten().chain(&self.summary).chain(&self.junit).cloned().collect()
     }
 
     fn nothing_found_error(&self) -> CliError {

@@ -1,7 +1,7 @@
 //! Reads the scenes of a command: files, the files in folders, or standard input.
 
 use std::ffi::OsStr;
-use std::fs;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,7 +9,6 @@ use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
-use crate::clock::Instant;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::AnalysisArgs;
@@ -21,7 +20,7 @@ use crate::products::snapshot::setting::matches_pattern;
 use crate::read::file;
 
 /// Reading a scene may exceed the time limit by this duration. A program with debug assertions is many times slower.
-const GRACE: Duration = Duration::from_millis(if cfg!(debug_assertions) { 10_000 } else { 400 });
+const GRACE: Duration = Duration::from_millis(if cfg!(debug_assertions) { 10_000 } else { 300 });
 
 /// A scene and the path from which it was read.
 #[derive(Debug)]
@@ -125,9 +124,13 @@ pub(crate) fn note_foreign_files(paths: &[PathBuf], terminal: &Terminal) -> Resu
 }
 
 /// Replaces each pattern, a path with `*` in its last part that no file has as its name, by the files that match it,
-/// sorted by name. A shell does this too, unless the pattern is in quotes. Returns an error if no file matches.
+/// sorted by name. A shell does this too, unless the pattern is in quotes. Returns an error if no file matches, or if one
+/// of several paths is a pipe or a device.
 pub(crate) fn expanded(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
     let mut all = Vec::new();
+    if paths.len() > 1 {
+        refuse_streams(paths)?;
+    }
     for path in paths {
         let pattern = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         if !pattern.contains('*') || path.exists() {
@@ -136,7 +139,8 @@ pub(crate) fn expanded(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
         }
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let listed = fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter().flatten().flatten();
-        let names = listed.map(|entry| entry.file_name());
+        let names = listed.filter(|entry| entry.path().is_file() || entry.path().is_dir());
+        let names = names.map(|entry| entry.file_name());
         let mut found: Vec<PathBuf> = (names.filter(|name| matches_pattern(&pattern, &name.to_string_lossy())))
             .map(|name| path.with_file_name(name))
             .collect();
@@ -147,6 +151,15 @@ pub(crate) fn expanded(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
         all.append(&mut found);
     }
     Ok(all)
+}
+
+/// Refuses pipes and devices, which can be read only once, and may never end.
+pub(crate) fn refuse_streams(paths: &[PathBuf]) -> Result<(), CliError> {
+    let is_stream = |path: &&PathBuf| fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
+    match paths.iter().find(is_stream) {
+        Some(stream) => Err(CliError::not_read(name(stream), file::NO_FILE)),
+        None => Ok(()),
+    }
 }
 
 /// Returns the files at `paths` and all `.json` files in folders, without reading them. A folder that cannot be read has
@@ -195,9 +208,15 @@ fn sorted(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), CliError> {
 /// The extensions of drawings, which only `import` reads.
 const DRAWINGS: [&str; 3] = ["dxf", "svg", "wkt"];
 
-/// Reads a file, or standard input for `-`.
+/// Reads the file that the user named, which may be a pipe, or standard input for `-`.
 pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, CliError> {
-    let read = if path == Path::new("-") { file::all(io::stdin().lock()) } else { file::bytes(path) };
+    let read = if path == Path::new("-") {
+        file::all(io::stdin().lock())
+    } else if refuse_streams(&[path.to_owned()]).is_err() {
+        File::open(path).and_then(file::all)
+    } else {
+        file::bytes(path)
+    };
     read.map_err(|error| CliError::not_read(name(path), error))
 }
 
@@ -248,14 +267,10 @@ pub(crate) fn read_in_time(
 ///
 /// # Errors
 /// Words that say that the time limit was reached. The work then goes on until the program ends.
-pub(crate) fn in_time<R: Send + 'static>(
-    level: &AnalysisArgs,
-    work: impl FnOnce() -> R + Send + 'static,
-) -> Result<R, String> {
+fn in_time<R: Send + 'static>(level: &AnalysisArgs, work: impl FnOnce() -> R + Send + 'static) -> Result<R, String> {
     let Some(limit) = level.time_limit else { return Ok(work()) };
     let (done, result) = channel();
-    let end = limit.end().and_then(|end| end.checked_add(GRACE));
-    let left = end.map_or(Duration::MAX, |end| end.saturating_duration_since(Instant::now()));
+    let left = limit.left(GRACE);
     if !left.is_zero() {
         thread::spawn(move || {
             // Nobody receives the scene after the time limit.

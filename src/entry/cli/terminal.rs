@@ -6,6 +6,7 @@
 
 use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
@@ -46,7 +47,7 @@ enum Colour {
 }
 
 /// Standard output and standard error.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Terminal {
     quiet: bool,
     diagnostics: Diagnostics,
@@ -86,6 +87,7 @@ impl Terminal {
 
     /// Prints a page to standard output, in lines that are at most as wide as the terminal.
     pub(crate) fn print(&self, page: &Page) -> Result<(), CliError> {
+        PRINTS.store(true, Ordering::Relaxed);
         let page = fitted(page, self.width());
         let mut stream = anstream::stdout().lock();
         written(stream.write_all(page.text().as_bytes()).and_then(|()| stream.flush()))
@@ -98,6 +100,7 @@ impl Terminal {
 
     /// Prints what `write` writes to standard output, like [`Self::print_bytes`].
     pub(crate) fn print_with(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), CliError> {
+        PRINTS.store(true, Ordering::Relaxed);
         let mut stream = io::BufWriter::new(io::stdout().lock());
         written(write(&mut stream).and_then(|()| stream.flush()))
     }
@@ -142,6 +145,14 @@ impl Terminal {
         // If standard error is closed, only the exit code reports the error.
         let _ = writeln!(stream, "{}", page.text().trim_end()).and_then(|()| stream.flush());
     }
+}
+
+/// Whether a command prints its results.
+static PRINTS: AtomicBool = AtomicBool::new(false);
+
+/// True if a command has begun to print its results.
+pub(crate) fn has_begun_to_print() -> bool {
+    PRINTS.load(Ordering::Relaxed)
 }
 
 /// Returns the text of a page without escape codes.

@@ -40,16 +40,16 @@ pub(crate) struct Verify {
 
 impl Verify {
     pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
-        let (own, level) = (self.clone(), AnalysisArgs { time_limit: self.time_limit, ..AnalysisArgs::default() });
-        let checked = source::in_time(&level, move || own.checked());
-        let late = |why| CliError::not_read(source::name(&self.certificate), why);
-        let (page, status) = checked.map_err(late).flatten().map_err(|c| vec![c])?;
-        terminal.print(&page).map_err(|c| vec![c])?;
+        let (page, status) = self.checked()?;
+        terminal.print(&page)?;
         Ok(status)
     }
 
     fn checked(&self) -> Result<(Page, ExitStatus), CliError> {
         let shown = self.certificate.display();
+        if let Some(scene) = &self.scene {
+            source::refuse_streams(&[self.certificate.clone(), scene.clone()])?;
+        }
         let bytes = source::bytes(&self.certificate)?;
         let certificate = Certificate::from_json(&bytes).map_err(|why| {
             CliError::CommandLine(format!("{shown} is not a certificate of drystone check --certificate: {why}"))
@@ -107,6 +107,9 @@ fn page(certificate: &Certificate, checked: &Checked) -> Page {
         let name = format!("frame {}, just {side} {} ({}{turned})", limit.frame, limit.of, form.change.to_json());
         line(name, &limit.verdict, &limit.faults);
     }
+    if checked.frames.is_empty() {
+        page.line("The certificate has no frames, so nothing is proved.");
+    }
     if certificate.listed {
         page.line("The scene gives the contacts; their positions are not checked against the outlines.");
     } else {
@@ -129,7 +132,9 @@ pub(crate) fn write(
     deadline: Option<Instant>,
 ) -> Result<(), CliError> {
     destination::refuse_overwrites(&[output.to_owned()], &[scene])?;
-    let hash = if scene == Path::new("-") { String::new() } else { hash(&source::bytes(scene)?) };
+    // What was read from a pipe cannot be read again.
+    let is_stream = scene == Path::new("-") || source::refuse_streams(&[scene.to_owned()]).is_err();
+    let hash = if is_stream { String::new() } else { hash(&source::bytes(scene)?) };
     let count: usize = analysis.scene.frames().iter().map(|frame| frame.placed.len()).sum();
     if count > MAX_BLOCKS {
         return Err(CliError::CommandLine(format!(
@@ -139,7 +144,8 @@ pub(crate) fn write(
     }
     let _until = DeadlineGuard::new(deadline);
     let certificate = Certificate::new(analysis, hash, with_margins);
-    destination::write(&[(output.to_owned(), certificate.to_json().into_bytes())], Existing::Replace)
+    let output = output.to_owned();
+    destination::write(&[(output.clone(), certificate.to_json().into_bytes())], Existing::Replace, &[output])
 }
 
 /// The SHA-256 of bytes in hexadecimal digits.

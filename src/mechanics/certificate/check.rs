@@ -8,7 +8,7 @@
 use std::collections::BTreeSet;
 
 use super::fraction::{Number, Rational, Vector, Wrench, eliminate, solve};
-use super::links::{Link, centroid, grip_wrenches, length_of_normal, sides};
+use super::links::{Link, grip_wrenches, length_of_normal, sides};
 use super::number::{Interval, WORK, allow, is_spent, spend};
 use super::{BodyForm, Certificate, ContactForm, FrameForm, LimitForm, Pair, Step};
 use crate::mechanics::solve::is_late;
@@ -159,16 +159,19 @@ impl Certificate {
             need(body.circle.is_none_or(|circle| circle.radius > 0.0), &|| {
                 format!("the radius of {} is not more than 0", body.id)
             });
-            let is_forward = |ring: &[Pair]| {
-                sides::<Rational>(ring).map(|[p, q]| p.cross(&q)).fold(Rational::ZERO, |sum, v| sum + v)
-                    > Rational::ZERO
-            };
-            let fine = centroid::<Rational>(body).is_some()
-                && (body.circle.is_some() || is_forward(&body.outline))
-                && !body.holes.iter().any(|hole| is_forward(hole));
+            let none = Rational::ZERO;
+            let area = |ring: &Vec<Pair>| sides::<Rational>(ring).fold(none.clone(), |sum, [p, q]| sum + p.cross(&q));
+            let (outline, holes): (_, Vec<Rational>) = (area(&body.outline), body.holes.iter().map(area).collect());
+            let fine = body.circle.is_some() || outline > none && holes.iter().all(|hole| *hole <= none);
             need(fine, &|| format!("the outline of {} has no area, or a ring runs the wrong way", body.id));
+            let left = holes.into_iter().fold(outline, |sum, hole| sum + hole);
+            need(body.circle.is_some() || !fine || left > none, &|| {
+                format!("the holes of {} are larger than its outline", body.id)
+            });
             need(body.weight >= 0.0, &|| format!("the weight of {} is negative", body.id));
         }
+        let numbers: BTreeSet<usize> = frames.iter().map(|frame| frame.frame).collect();
+        need(numbers.len() == frames.len(), &|| "two frames have the same number".to_owned());
         let is_block = |index: usize| self.bodies.get(index).is_some_and(|body| !body.ground);
         for frame in frames {
             let n = frame.frame;

@@ -81,7 +81,7 @@ impl<N: Number> Link<N> {
 }
 
 /// The centroid of an outline without its holes; `None` if it may have no area.
-pub(super) fn centroid<N: Number>(body: &BodyForm) -> Option<Vector<N>> {
+fn centroid<N: Number>(body: &BodyForm) -> Option<Vector<N>> {
     if let Some(circle) = body.circle {
         return Some(Vector::new(circle.centre));
     }

@@ -325,9 +325,11 @@ impl FrameForm {
 }
 
 impl Checked {
-    /// True if the verdicts of all frames and of all changed frames are exactly proved.
+    /// True if there are frames, and the verdicts of all of them and of all changed frames are exactly proved.
     pub fn is_exact(&self) -> bool {
-        self.frames.iter().all(FrameCheck::is_exact) && self.limits.iter().all(|limit| limit.faults.is_empty())
+        !self.frames.is_empty()
+            && self.frames.iter().all(FrameCheck::is_exact)
+            && self.limits.iter().all(|limit| limit.faults.is_empty())
     }
 }
 

@@ -1,6 +1,6 @@
 //! Proofs of a placement tolerance: forces for all errors up to it, and a motion for a pattern of errors beyond it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::fraction::{Number, Rational, Vector, square, square_length};
 use super::limits::{DISTANCES, Limits};
@@ -52,7 +52,9 @@ impl FrameForm {
     pub(super) fn error_faults(&self, bodies: &[BodyForm]) -> Option<&'static str> {
         let errors = self.errors.as_ref()?;
         let is_placed = |list: &Sparse, least: f64, most: f64| {
-            list.iter().all(|(body, value)| self.placed.contains(body) && (least..=most).contains(value))
+            let different: BTreeSet<usize> = list.iter().map(|(body, _)| *body).collect();
+            different.len() == list.len()
+                && list.iter().all(|(body, value)| self.placed.contains(body) && (least..=most).contains(value))
         };
         let too_short = |contact: &ContactForm| {
             let taken = self.inset::<Rational>(contact).map(|inset| inset + Rational::exact(self.kernel / 2.0));

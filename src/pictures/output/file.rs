@@ -2,8 +2,11 @@
 //!
 //! Only this file uses tempfile. A file is written under a temporary name in the same folder and then renamed in one
 //! step. Therefore no program ever reads an incomplete file, and a full disk leaves the old file unchanged. The new
-//! file gets the permissions of the old file. If the path is a link, the target of the link is replaced. A device or a
-//! pipe is written to directly.
+//! file gets the permissions of the old file.
+//!
+//! Only a path that the user typed may be a link, whose target is then replaced, or a device or a pipe, which is written
+//! to directly. At every other path the new file replaces what has this name. So a stranger's folder with links in it leads
+//! to no file outside.
 //!
 //! Temporary files are in a list as long as they exist. `abandon` deletes them before a signal ends the process.
 
@@ -40,7 +43,8 @@ const MAX_LINKS: usize = 40;
 static TEMPORARY_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Writes all files, or none of them if one cannot be written. All files are first written under temporary names, and
-/// then renamed. A device or a pipe is written directly.
+/// then renamed. Only paths in `typed`, which the user wrote, may lead through a link or to a device or a pipe; any other
+/// link is replaced.
 ///
 /// # Errors
 /// Returns the error of the first file that could not be written. In this case nothing has changed, unless the system
@@ -51,15 +55,16 @@ static TEMPORARY_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 /// use drystone::output::file::{Existing, write_whole};
 /// let folder = tempfile::tempdir()?;
 /// let files = ["a.svg", "b.svg"].map(|name| (folder.path().join(name), b"<svg/>".to_vec()));
-/// write_whole(&files, Existing::Keep)?;
-/// let refused = write_whole(&files, Existing::Keep).expect_err("both are there");
+/// write_whole(&files, Existing::Keep, &[])?;
+/// let refused = write_whole(&files, Existing::Keep, &[]).expect_err("both are there");
 /// assert!(refused.to_string().contains("a.svg"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing) -> Result<(), WriteError> {
+pub fn write_whole(files: &[(PathBuf, Vec<u8>)], existing: Existing, typed: &[PathBuf]) -> Result<(), WriteError> {
     let mut ready = Vec::with_capacity(files.len());
     for (path, bytes) in files {
-        let prepared = prepare(path, bytes, existing).map_err(|why| WriteError { path: path.clone(), why })?;
+        let prepared = prepare(path, bytes, existing, typed.contains(path))
+            .map_err(|why| WriteError { path: path.clone(), why })?;
         ready.push(prepared);
     }
     for (prepared, (path, bytes)) in ready.into_iter().zip(files) {
@@ -195,10 +200,11 @@ fn keep_rights(file: &File, old: &Metadata) -> io::Result<()> {
     file.set_permissions(old.permissions())
 }
 
-/// Prepares a file for writing. Writes `bytes` to a temporary file, or opens the path if it is a device or pipe.
-fn prepare(path: &Path, bytes: &[u8], existing: Existing) -> io::Result<PreparedFile> {
-    let target = followed(path)?;
-    let old = fs::metadata(&target).ok();
+/// Prepares a file for writing. Writes `bytes` to a temporary file, or opens the path if the user typed it and it leads to
+/// a device or pipe.
+fn prepare(path: &Path, bytes: &[u8], existing: Existing, is_typed: bool) -> io::Result<PreparedFile> {
+    let target = if is_typed { followed(path)? } else { path.to_owned() };
+    let old = fs::symlink_metadata(&target).ok().filter(|old| is_typed || old.is_file() || old.is_dir());
     if let Some(old) = &old {
         if old.is_dir() {
             return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
@@ -249,7 +255,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("picture.svg");
         for bytes in [b"first, and longer".to_vec(), b"second".to_vec()] {
-            write_whole(&[(path.clone(), bytes.clone())], Existing::Replace).expect("written");
+            write_whole(&[(path.clone(), bytes.clone())], Existing::Replace, &[]).expect("written");
             assert_eq!(fs::read(&path).expect("there"), bytes);
         }
         assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
@@ -262,7 +268,7 @@ mod tests {
         fs::write(&good, "before").expect("writable");
         for bad in [folder.path().join("missing").join("bad.svg"), folder.path().to_owned()] {
             let files = [(good.clone(), b"after".to_vec()), (bad.clone(), b"after".to_vec())];
-            let refused = write_whole(&files, Existing::Replace).expect_err("no such place");
+            let refused = write_whole(&files, Existing::Replace, &[]).expect_err("no such place");
             assert_eq!(refused.path, bad);
             assert!(!refused.to_string().contains(".part"), "{refused}");
             assert_eq!(fs::read(&good).expect("still there"), b"before");
@@ -272,7 +278,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_link_is_followed_and_permissions_stay() {
+    fn only_a_typed_link_is_followed_and_permissions_stay() {
         use std::os::unix::fs::{PermissionsExt, symlink};
         let folder = tempfile::tempdir().expect("a folder");
         let at = |name: &str| folder.path().join(name);
@@ -283,7 +289,7 @@ mod tests {
         symlink("one.svg", at("two.svg")).expect("linked");
         symlink("deep/new.svg", at("dangling.svg")).expect("linked");
         symlink("circle.svg", at("circle.svg")).expect("linked");
-        let write = |name: &str| write_whole(&[(at(name), b"new".to_vec())], Existing::Replace);
+        let write = |name: &str| write_whole(&[(at(name), b"new".to_vec())], Existing::Replace, &[at(name)]);
         write("two.svg").expect("written");
         write("dangling.svg").expect("written");
         assert_eq!(fs::read(at("deep/real.svg")).expect("there"), b"new");
@@ -294,6 +300,14 @@ mod tests {
             assert!(at(link).is_symlink(), "{link} is still a link");
         }
         assert!(write("circle.svg").is_err());
+        // Links that nobody typed are replaced, also a circular one and one to a folder.
+        symlink("deep", at("folder.svg")).expect("linked");
+        let derived = ["one.svg", "circle.svg", "folder.svg"].map(|name| (at(name), b"own".to_vec()));
+        write_whole(&derived, Existing::Replace, &[]).expect("written");
+        for (path, own) in &derived {
+            assert!(!path.is_symlink() && fs::read(path).expect("there") == *own, "{path:?}");
+        }
+        assert_eq!(fs::read(at("deep/real.svg")).expect("there"), b"new");
     }
 
     #[cfg(unix)]
@@ -313,7 +327,7 @@ mod tests {
         }
         let null = Path::new("/dev/null");
         assert!(!same(null, null), "a device may be input and output");
-        write_whole(&[(null.to_owned(), b"x".to_vec())], Existing::Replace).expect("written");
+        write_whole(&[(null.to_owned(), b"x".to_vec())], Existing::Replace, &[null.to_owned()]).expect("written");
         assert!(!fs::metadata(null).expect("there").is_file(), "no file replaces the device");
     }
 }

@@ -194,7 +194,8 @@ fn escaped(words: &str) -> String {
             '<' => out.push_str("\\textless{}"),
             '>' => out.push_str("\\textgreater{}"),
             '|' => out.push_str("\\textbar{}"),
-            '"' => out.push_str("\\textquotedbl{}"),
+            // Also without the font encoding T1, which \\textquotedbl needs.
+            '"' => out.push_str("\\char34{}"),
             '\u{a0}' => out.push('~'),
             '−' => out.push_str("$-$"),
             '·' => out.push_str("$\\cdot$"),
@@ -228,6 +229,7 @@ mod tests {
     fn hostile_text_is_escaped_and_braces_are_balanced() {
         let nasty = "\\input{/etc/passwd} 50 % of #1 $x_2^3$ & ~ {{ } |<>\" 2×10⁻³ N·m\u{7}\n";
         let escaped = escaped(nasty);
+        assert!(escaped.contains("\\textgreater{}\\char34{} 2"), "{escaped}");
         assert!(!escaped.contains("\\input") && !escaped.contains('\n'));
         let mut depth = 0;
         let mut before = ' ';

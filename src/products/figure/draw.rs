@@ -8,6 +8,7 @@ use super::option::Options;
 use super::sheet;
 use super::symmetric::symmetric;
 use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::Drawing;
 
 /// Time between two pictures of an animated motion, seconds.
@@ -16,6 +17,21 @@ const MOTION_FRAME_SECONDS: f64 = 0.1;
 const MOTION_STEP_LIMITS: (f64, f64) = (12.0, 150.0);
 /// Time for which the end of a motion is shown, seconds.
 const MOTION_END_SECONDS: f64 = 1.0;
+
+/// The largest number of panels of a figure. More take long to lay out, and nobody looks at them.
+const MAX_PANELS: usize = 2000;
+
+/// Refuses a scene with more frames than a figure may have panels. `remedy` says what to do.
+///
+/// # Errors
+/// The number of frames, the limit and the remedy.
+pub(crate) fn check_panels(scene: &Scene, remedy: &str) -> Result<(), String> {
+    let count = scene.frames.len();
+    if count <= MAX_PANELS {
+        return Ok(());
+    }
+    Err(format!("a figure of {count} panels is too large, at most {MAX_PANELS} are drawn; {remedy}"))
+}
 
 /// Draws a figure of this kind with one panel for each frame of the analysis.
 ///

@@ -59,6 +59,7 @@ pub use cad::dxf;
 #[cfg(feature = "report")]
 pub(crate) use change::{ForceChange, count_in_words, noise, shared_forces};
 pub use description::caption;
+pub(crate) use draw::check_panels;
 pub use draw::{draw, film, forces, least_size, panels, panels_of, split};
 #[cfg(feature = "report")]
 pub(crate) use fall::{Fall, Joint};

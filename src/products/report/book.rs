@@ -238,7 +238,12 @@ fn figure(words: &str, body: &str, chapter: &Path) -> Result<Figure, String> {
     let text = match &request.file {
         Some(named) => {
             let path = chapter.parent().unwrap_or(Path::new("")).join(named);
-            file::text(&path).map_err(|e| text::line(&format!("cannot read {}: {e}", path.display())))?
+            let found = file::text(&path).map_err(|e| text::line(&format!("cannot read {}: {e}", path.display())))?;
+            // The problems of a scene quote its file. No stranger's text may bring another file into a page or a log.
+            if !found.contains("\"drystone\"") {
+                return Err(text::line(&format!("{} is no scene file: it has no key \"drystone\"", path.display())));
+            }
+            found
         }
         None => body.to_owned(),
     };

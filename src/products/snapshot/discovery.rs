@@ -2,7 +2,7 @@
 //! references whose scene does not exist, or which the settings do not include.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{self, File};
+use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::reference::{HASH_WORDS, Part, is_reference_suffix, parts};
 use super::setting::{self, SETTINGS_FILE, Settings, matches_pattern};
 use super::store;
-use crate::mechanics::scene::{Code, Scene, SceneError, isolate};
+use crate::mechanics::scene::{Code, Problem, Scene, SceneError, isolate};
 use crate::read;
 
 /// A scene to check.
@@ -54,8 +54,8 @@ pub struct Discovered {
 /// 3. Otherwise the filter selects all scenes whose name contains it.
 ///
 /// # Errors
-/// All errors in settings, files that cannot be read, and scenes that would share a reference. Scenes that are not valid
-/// are no error: the other scenes are still checked.
+/// All errors in settings, folders that cannot be read, and scenes that would share a reference. Scenes that are not valid
+/// or cannot be read are no error: the other scenes are still checked.
 pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Vec<String>> {
     let mut search = SnapshotSearch::default();
     search.add_places(places);
@@ -83,9 +83,16 @@ pub fn discover(places: &[PathBuf], only: Option<&str>) -> Result<Discovered, Ve
         if !selects(&name) {
             continue;
         }
-        match isolate(&shown(&path), || Scene::from_slice(&bytes)) {
-            Err(fault) | Ok(Err(fault)) => faults.push((path, fault)),
-            Ok(Ok(scene)) => jobs.push(Job { path, name, scene: Arc::new(scene), settings, parts }),
+        let scene = match &bytes {
+            Ok(bytes) => isolate(&shown(&path), || Scene::from_slice(bytes)).flatten(),
+            Err(why) => {
+                let problem = Problem::alone(Code::NotReadable, format!("it cannot be read: {why}"), "");
+                Err(SceneError { list: vec![problem], text: None })
+            }
+        };
+        match scene {
+            Err(fault) => faults.push((path, fault)),
+            Ok(scene) => jobs.push(Job { path, name, scene: Arc::new(scene), settings, parts }),
         }
     }
     if !search.errors.is_empty() {
@@ -217,9 +224,16 @@ impl SnapshotSearch {
         }
     }
 
-    /// Returns the bytes of a scene file; `None` if the file is not a drystone scene, the settings ignore it, or it
-    /// cannot be read. `base` is the path of its references without their extensions, and `parts` are these references.
-    fn scene_bytes(&mut self, path: &Path, base: &Path, settings: &Settings, parts: &[Part]) -> Option<Vec<u8>> {
+    /// Returns the bytes of a scene file, or the reason why it cannot be read; `None` if the file is not a drystone scene,
+    /// or the settings ignore it. `base` is the path of its references without their extensions, and `parts` are these
+    /// references.
+    fn scene_bytes(
+        &self,
+        path: &Path,
+        base: &Path,
+        settings: &Settings,
+        parts: &[Part],
+    ) -> Option<std::io::Result<Vec<u8>>> {
         let below = setting::nearest(base.parent().unwrap_or(Path::new("."))).and_then(|file| {
             let folder = file.parent()?.to_owned();
             let path = std::path::absolute(path).ok()?;
@@ -231,14 +245,11 @@ impl SnapshotSearch {
         }
         let bytes = match read::file::bytes(path) {
             Ok(bytes) => bytes,
-            Err(error) => {
-                self.report_unreadable(path, &error);
-                return None;
-            }
+            unreadable => return Some(unreadable),
         };
         // Skip JSON files of other programs. A file that has references counts as a scene even without the key
         // `"drystone"`, so that the missing key is reported.
-        (looks_like_scene(&bytes) || parts.iter().any(|p| p.file.exists())).then_some(bytes)
+        (looks_like_scene(&bytes) || parts.iter().any(|p| p.file.exists())).then_some(Ok(bytes))
     }
 
     /// Returns the orphaned reference files, each with the reason and the remedy. `expected` has the references of
@@ -303,7 +314,7 @@ pub(crate) fn looks_like_scene(bytes: &[u8]) -> bool {
 /// True if the first words of a file identify it as a reference of a scene. False if the file cannot be read.
 fn has_reference_mark(path: &Path) -> bool {
     let mut head = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(32).read_to_end(&mut head));
+    let read = read::file::open(path).and_then(|file| file.take(32).read_to_end(&mut head));
     let marks = ["{\"drystone_facts\":", HASH_WORDS];
     read.is_ok() && marks.iter().any(|mark| head.starts_with(mark.as_bytes()))
 }

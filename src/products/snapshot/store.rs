@@ -111,7 +111,7 @@ pub fn lock_folders(folders: impl IntoIterator<Item = PathBuf>, access: Access) 
 /// # Errors
 /// The first file that could not be written.
 pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), WriteError> {
-    write_whole(files, Existing::Replace)
+    write_whole(files, Existing::Replace, &[])
 }
 
 /// Deletes a file if it exists. An error is ignored: a file that stays in a read-only folder does no harm.

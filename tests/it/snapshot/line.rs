@@ -118,6 +118,23 @@ fn invalid_scenes_do_not_hide_the_changes_of_the_others() {
     assert_eq!(folder.run(&["a", "--only", "arch"]).code, 0, "the valid scene is accepted");
 }
 
+/// A link to nothing and a file that is too large are one failed entry each.
+#[cfg(unix)]
+#[test]
+fn unreadable_scenes_do_not_hide_the_changes_of_the_others() {
+    let folder = accepted();
+    folder.write("a/arch.json", &lintel("A lintel", 1.2));
+    std::os::unix::fs::symlink("nothing", folder.path("a/gone.json")).expect("linked");
+    let large = fs::File::create(folder.path("a/large.json")).expect("writable");
+    large.set_len(64_000_001).expect("sparse");
+    let ran = folder.run(&["a"]);
+    assert_eq!(ran.code, 2, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("load on lintel: force"), "{}", ran.out);
+    for words in ["a/gone.json", "a/large.json", "1 snapshot: 0 match, 1 changed, 0 new, 2 scenes that are not valid"] {
+        assert!(ran.err.contains(words), "{words}: {}", ran.err);
+    }
+}
+
 #[test]
 fn invalid_settings_and_options_are_reported_completely_and_nothing_is_written() {
     let folder = Folder::with(&[("good.json", lintel("Good", 1.0))]);

@@ -13,9 +13,12 @@ use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::input;
+use crate::entry::cli::destination;
 use crate::entry::cli::error::CliError;
 use crate::mechanics::batch::{Record, Records};
+use crate::pictures::output::file::Existing;
 use crate::products::result::Origin;
+use crate::read::file;
 use crate::text;
 
 /// The suffix that is added to the path of an output.
@@ -100,14 +103,11 @@ impl ResumeFile {
     /// Creates the resume file of an output file, and writes the settings to it.
     pub fn create(output: &Path, settings: &Settings) -> Result<ResumeFile, CliError> {
         let path = ResumeFile::path_for(output);
-        let created = File::create(&path).and_then(|mut file| {
-            file.write_all(settings.header().as_bytes())?;
-            Ok(file)
-        });
-        match created {
-            Ok(file) => Ok(ResumeFile { file, path, waiting: String::new() }),
-            Err(error) => Err(not_written(&path, &error)),
-        }
+        let header = settings.header().into_bytes();
+        let length = header.len() as u64;
+        destination::write(&[(path.clone(), header)], Existing::Replace, &[])?;
+        let file = cut(&path, length).map_err(|error| not_written(&path, &error))?;
+        Ok(ResumeFile { file, path, waiting: String::new() })
     }
 
     /// Adds the entry of an output line; `scene` is the hash of its scene. The entry stays in memory until
@@ -161,7 +161,7 @@ pub(super) fn check(output: &Path, settings: &Settings, records: &mut Records) -
     let name = output.display();
     let path = ResumeFile::path_for(output);
     let (mut entries, header_bytes) = open_entries(output, &path, settings)?;
-    let file = File::open(output).map_err(|error| not_read(output, &error))?;
+    let file = file::open(output).map_err(|error| not_read(output, &error))?;
     let mut lines = BufReader::with_capacity(BUFFER_BYTES, file);
     let mut checked = Checked { answers: 0, bytes: 0, resume_bytes: header_bytes };
     let (mut line, mut entry_line) = (Vec::new(), Vec::new());
@@ -197,7 +197,10 @@ pub(super) fn check(output: &Path, settings: &Settings, records: &mut Records) -
 /// reader of the entries, and the length of the header in bytes.
 fn open_entries(output: &Path, path: &Path, settings: &Settings) -> Result<(BufReader<File>, u64), CliError> {
     let name = output.display();
-    let file = match File::open(path) {
+    if path.is_symlink() {
+        return Err(refused(&format!("{} is a link, which may lead to another file", path.display())));
+    }
+    let file = match file::open(path) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             return Err(refused(&format!(

@@ -95,7 +95,7 @@ impl Render {
             return Ok(());
         }
         if let Destination::Folder(folder) = destination {
-            destination::make_folder(folder)?;
+            destination::make_folder(folder, folder)?;
         }
         let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
         let mut summaries = Vec::new();
@@ -106,7 +106,7 @@ impl Render {
                 files.push((self.target(path, number, count), bytes));
             }
         }
-        destination::write(&files, Existing::Replace)?;
+        destination::write(&files, Existing::Replace, destination.typed())?;
         for (written, summary) in summaries {
             terminal.note(&format!("{written}: {summary}"));
         }

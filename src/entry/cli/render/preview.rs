@@ -3,10 +3,10 @@
 //! The server reads the head of one GET request and answers it; this needs no crate. It listens on the loopback address
 //! only, and what a browser may load from it belongs to its own page:
 //!
-//! - The `Host` header must name the loopback address. A name of another site that leads to this machine (DNS rebinding)
-//!   is refused.
-//! - A request that a page of another origin makes is refused (`Sec-Fetch-Site`), and no header allows other origins to
-//!   read an answer.
+//! - The `Host` header must be exactly the address or `localhost`, with the port. A name of another site that leads to this
+//!   machine (DNS rebinding) is refused.
+//! - A request that a page of another origin makes is refused (`Origin`, `Sec-Fetch-Site`), and no header allows other
+//!   origins to read an answer.
 //! - The page loads nothing from elsewhere and cannot be shown in a frame (`Content-Security-Policy`).
 
 use std::collections::BTreeMap;
@@ -54,6 +54,7 @@ type Shown = (String, String);
 struct Preview<'a> {
     render: &'a Render,
     terminal: &'a Terminal,
+    port: u16,
     state: Mutex<State>,
     changed: Condvar,
 }
@@ -77,7 +78,7 @@ pub(super) fn serve(render: &Render, port: Option<u16>, scenes: Vec<PathBuf>, te
     let (address, listener) = opened.map_err(|why| CliError::from(format!("--serve cannot open the port: {why}")))?;
     terminal.note(&format!("open http://{address}/ in a browser; Ctrl+C ends the preview"));
     let state = Mutex::new(State { scenes, ..State::default() });
-    let preview = Preview { render, terminal, state, changed: Condvar::new() };
+    let preview = Preview { render, terminal, port: address.port(), state, changed: Condvar::new() };
     thread::scope(|scope| {
         scope.spawn(|| {
             for stream in listener.incoming().flatten() {
@@ -142,14 +143,20 @@ impl Preview<'_> {
             let pairs = head.lines().skip(1).filter_map(|line| line.split_once(':'));
             pairs.filter(|(key, _)| key.eq_ignore_ascii_case(name)).map(|(_, value)| value.trim()).collect()
         };
-        let is_own = |host: &str| ["127.0.0.1", "localhost"].contains(&host.split(':').next().unwrap_or_default());
+        let is_own = |host: &str| {
+            // A browser leaves out the port 80.
+            let host = if host.contains(':') { host.to_owned() } else { format!("{host}:80") };
+            ["127.0.0.1", "localhost"].iter().any(|name| host == format!("{name}:{}", self.port))
+        };
         let (path, query) = target.split_once('?').unwrap_or((target, ""));
         let is_foreign = values("Sec-Fetch-Site").iter().any(|site| !["same-origin", "none"].contains(site));
+        let has_foreign_origin = values("Origin").iter().any(|of| !of.strip_prefix("http://").is_some_and(is_own));
         let value = |name: &str| {
             let pairs = query.split('&').filter_map(|pair| pair.split_once('='));
             pairs.into_iter().find(|(key, _)| *key == name).map_or("", |(_, value)| value)
         };
         match (values("Host").as_slice(), method, path) {
+            _ if has_foreign_origin => ("403 Forbidden", "text/plain", "a page of another origin asks\n".into()),
             ([host], "GET", "/") if is_own(host) => ("200 OK", "text/html", PAGE.into()),
             ([host], "GET", path) if is_own(host) && !is_foreign => match path {
                 "/preview.js" => ("200 OK", "text/javascript", SCRIPT.into()),

@@ -46,6 +46,7 @@ impl Report {
 
     fn pairs(&self) -> Result<(Vec<Task>, Vec<String>), Vec<CliError>> {
         let refuse = |why: &str| vec![CliError::from(why)];
+        source::refuse_streams(&self.scenes)?;
         let (a, b) = match self.scenes.as_slice() {
             [a, b] => (a, b),
             // The scenes are compared with themselves as the option `set` changes them.

@@ -17,6 +17,10 @@ use crate::mechanics::statics::assembly::Assembly;
 /// solver can solve.
 pub(super) const LARGEST_ERROR: f64 = 0.4995;
 
+/// A joint of at most this share of the component's length acts at one point: with a kernel of 1, only the rounding of
+/// coordinates is left between its ends.
+const MIN_LENGTH: f64 = 1e-12;
+
 /// What is added to the diagonal of the normal equations, as a share of its largest entry. Repeated corrections remove
 /// its effect.
 const REGULARISATION: f64 = 1e-12;
@@ -86,7 +90,8 @@ impl Model {
         let (mut columns, mut components) = (Vec::new(), Vec::new());
         let mut joints = Vec::new();
         for (k, (contact, term)) in component.contacts.iter().zip(&program.contacts).enumerate() {
-            if term.points < 2 {
+            let length = (contact.points[1] - contact.points[0]).norm() / scale.length;
+            if term.points < 2 || length <= MIN_LENGTH {
                 return None;
             }
             let first = columns.len();
@@ -99,7 +104,6 @@ impl Model {
                 columns.push([Some(own), other].into_iter().flatten().flat_map(force_entries).collect());
             }
             let error = contact.from.map_or(0.0, |body| scales[body]).max(scales[contact.on]);
-            let length = (contact.points[1] - contact.points[0]).norm() / scale.length;
             joints.push(Joint { first, friction: term.friction, rate: error / length });
         }
         let mut grips = Vec::new();

@@ -25,14 +25,18 @@ use roxmltree::{Document, Node, ParsingOptions};
 use simplecss::{Rule, StyleSheet};
 
 use self::name::Lines;
-use self::walk::{MAX_DEPTH, SvgWalk};
+use self::walk::{MAX_CLIP_CORNERS, MAX_DEPTH, SvgWalk};
 use self::xml::{is, words};
 use super::draft::{Draft, Scale};
 use super::limit::too_many;
 use super::naming::Naming;
 
-/// The largest number of comparisons of a part of the selector of a style rule with an element.
-const MAX_RULE_MATCHES: usize = 150_000_000;
+/// The largest number of comparisons of a part of the selector of a style rule with an element. Each may take half a
+/// microsecond, if the rule applies.
+const MAX_RULE_MATCHES: usize = 5_000_000;
+
+/// The number of bytes of an attribute that a selector reads in the time of one comparison.
+const BYTES_PER_MATCH: usize = 64;
 
 /// Reads an SVG into a draft in metres, with y up. `frame` selects a frame of a figure that drystone drew, counted from
 /// 0.
@@ -40,6 +44,7 @@ const MAX_RULE_MATCHES: usize = 150_000_000;
 /// # Errors
 /// Returns the reason why the text cannot be read as SVG.
 pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Naming<'_>) -> Result<Draft, String> {
+    xml::check_cost(text)?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|e| e.to_string())?;
     let root = document.root_element();
@@ -53,12 +58,19 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
     let too_slow =
         format!("its {rules} style rules and {elements} elements need too many comparisons; simplify its styles");
     let of_element = comparisons(&sheet, &document);
-    if of_element.saturating_mul(elements) > MAX_RULE_MATCHES {
+    let reads_all = css.contains('[');
+    let weights = document
+        .descendants()
+        .filter(Node::is_element)
+        .map(|node| weight(node, reads_all))
+        .fold(0, usize::saturating_add);
+    if of_element.saturating_mul(weights) > MAX_RULE_MATCHES {
         return Err(too_slow);
     }
     let mut walk = SvgWalk {
         sheet,
         comparisons: of_element,
+        reads_all,
         naming,
         styled: 0,
         ids: ids(&document),
@@ -66,6 +78,7 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
         draft: Draft::default(),
         seen: 0,
         more: 0,
+        clip_corners: 0,
         remarked: BTreeMap::new(),
     };
     if let Some(title) = root.children().find(|n| is(*n, "title")) {
@@ -85,6 +98,11 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
     if walk.styled > MAX_RULE_MATCHES {
         return Err(too_slow);
     }
+    if walk.clip_corners > MAX_CLIP_CORNERS {
+        return Err(format!(
+            "its clip paths have more than {MAX_CLIP_CORNERS} corners in all clipped elements; cut the outlines themselves"
+        ));
+    }
     walk.count_unlisted();
     if walk.more > 0 {
         return Err(too_many(walk.draft.parts.len() + walk.more).message);
@@ -103,6 +121,13 @@ fn comparisons(sheet: &StyleSheet<'_>, document: &Document<'_>) -> usize {
         depth.saturating_pow(ancestors.try_into().unwrap_or(u32::MAX)).saturating_mul(1 + signs)
     };
     sheet.rules.iter().map(of_rule).fold(0, usize::saturating_add)
+}
+
+/// Returns how many comparisons the selectors of one style rule take for an element: they may read its classes, or all of
+/// its attributes.
+fn weight(node: Node<'_, '_>, reads_all: bool) -> usize {
+    let read = node.attributes().filter(|own| reads_all || own.name() == "class");
+    1 + read.map(|own| own.value().len()).sum::<usize>() / BYTES_PER_MATCH
 }
 
 /// Returns the text of all `<style>` elements.

@@ -6,7 +6,7 @@ use svgtypes::{TransformListParser, TransformListToken};
 use super::context::Context;
 use super::remark::RemarkKind;
 use super::style::Fill;
-use super::walk::SvgWalk;
+use super::walk::{MAX_CLIP_CORNERS, SvgWalk};
 use super::{element, name};
 use crate::sources::import::draft::{Part, PartGeometry, Role, Values};
 use crate::sources::import::limit::MAX_BODIES;
@@ -30,6 +30,10 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         let fill = self.fill(node, around);
         if self.draft.parts.len() >= MAX_BODIES {
             self.more += 1;
+            return;
+        }
+        self.clip_corners += around.clips.iter().map(|clip| clip.segments.len()).sum::<usize>();
+        if self.clip_corners > MAX_CLIP_CORNERS {
             return;
         }
         let mapped = subpaths.iter().map(|t| t.mapped(&around.map)).collect();

@@ -11,7 +11,7 @@ use super::remark::{MAX_LISTED_REMARKS, RemarkKind};
 use super::style::{self, Style};
 use super::viewport::{self, Viewport};
 use super::xml::{SVG, is, is_never_drawn};
-use super::{MAX_RULE_MATCHES, element};
+use super::{MAX_RULE_MATCHES, element, weight};
 use crate::geometry::{Point, Vector};
 use crate::sources::import::draft::{Draft, Part, PartGeometry, Role, Scale};
 use crate::sources::import::naming::Naming;
@@ -22,6 +22,8 @@ const XLINK_NAMESPACE: &str = "http://www.w3.org/1999/xlink";
 const PAGE_TOL: f64 = 0.005;
 /// The largest nesting depth of groups and copies; deeper files could overflow the stack.
 pub(super) const MAX_DEPTH: usize = 100;
+/// The largest number of corners of clip paths, each as often as it clips.
+pub(super) const MAX_CLIP_CORNERS: usize = 500_000;
 /// The largest number of elements, copies included. Copies of copies can grow exponentially.
 const MAX_ELEMENTS: usize = 500_000;
 
@@ -39,12 +41,16 @@ pub(super) struct SvgWalk<'a, 'd> {
     pub(super) draft: Draft,
     /// The largest number of comparisons of one element with the style rules.
     pub(super) comparisons: usize,
+    /// Whether selectors read all attributes.
+    pub(super) reads_all: bool,
     /// The number of visited elements.
     pub(super) seen: usize,
     /// The number of comparisons of style rules with these elements.
     pub(super) styled: usize,
     /// The number of shapes beyond the limit.
     pub(super) more: usize,
+    /// The number of corners of all clip paths, each as often as it clips.
+    pub(super) clip_corners: usize,
     /// The number of remarks of each kind.
     pub(super) remarked: BTreeMap<RemarkKind, usize>,
 }
@@ -174,7 +180,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     /// drawing is refused, or, with a remark, on the number of elements or on the nesting depth.
     fn is_beyond_limits(&mut self, node: Node<'a, 'd>, around: &Context) -> bool {
         self.seen += 1;
-        self.styled = self.styled.saturating_add(self.comparisons);
+        self.styled = self.styled.saturating_add(self.comparisons.saturating_mul(weight(node, self.reads_all)));
         if self.styled > MAX_RULE_MATCHES {
             return true;
         }
