@@ -266,11 +266,8 @@ fn fits(kind: Type, value: &Value) -> bool {
         Type::Index => value.is_null() || value.is_u64(),
         Type::Number => number(value),
         Type::Bound | Type::Margin => number(value) || value == "unbounded",
-        Type::Slope => number(value) || pair(value) || value == "at_kink",
-        Type::SlopePair => {
-            let both = |v: &Value| two(v) && list(v, &pair);
-            pair(value) || both(value) || value == "at_kink" || value.is_null()
-        }
+        Type::Slope => number(value) || value == "at_kink",
+        Type::SlopePair => pair(value) || value == "at_kink" || value.is_null(),
         Type::Pair => pair(value),
         Type::Pairs => two(value) && list(value, &pair),
         Type::Points => list(value, &pair),

@@ -37,10 +37,10 @@ pub enum Type {
     /// An interval `[low, high]`, `null` if it is empty, or `"withheld"`. Each end is a number, `null` if there is no
     /// limit, or `"withheld"`.
     Interval,
-    /// A derivative: a number; `[backward, forward]` at a kink; or `"at_kink"`.
+    /// A derivative: a number, or `"at_kink"`.
     Slope,
-    /// Derivatives along x and y: `[x, y]`; at a kink, two such pairs `[backward, forward]`, or `"at_kink"`; `null`
-    /// for a vertex that cannot move.
+    /// Derivatives along x and y: `[x, y]`, or `"at_kink"` if one of them is not unique; `null` for a vertex that cannot
+    /// move.
     SlopePair,
     /// Two lists of motions: just beyond the lower end and just beyond the upper end of an interval.
     MotionPairs,
@@ -340,7 +340,7 @@ pub static KEYS: &[Key] = &[
         key("unsupported", NameList, "blocks that would fall even if all contacts and grips could stick").when("if there are unsupported blocks"),
         key("mechanism", Motions, "velocities of the blocks as the collapse begins; empty if the frame stands"),
         key("margins", Object, "how far the frame is from collapse: the extreme values at which it stands; a margin is null if the frame stands at no value, if the margin does not exist in this frame, or if no value was confirmed (a notice then says so)").when(IF_MARGINS_REQUESTED).of(&MARGINS),
-        key("sensitivity", Object, "exact derivatives of the ends of one margin's interval with respect to vertices, weights, friction and loads, for unchanged contacts. At a kink, where forces and mechanism are not unique, the backward and the forward derivative are given, or `at_kink` if they were not computed").when("with `--sensitivity`").of(&[
+        key("sensitivity", Object, "exact derivatives of the ends of one margin's interval with respect to vertices, weights, friction and loads, for unchanged contacts. At a kink, where a derivative differs between the possible forces and mechanisms, it is `at_kink`").when("with `--sensitivity`").of(&[
             key("parameter", Word(&["friction", "tilt", "horizontal_load", "kernel", "load_factor"]), "parameter of the margin"),
             key("ends", Objects, "ends of the interval that have a value and a mechanism").of(&[
                 key("end", Word(&["low", "high"]), "lower or upper end"),

@@ -1,7 +1,6 @@
 //! The sensitivity of a margin, as written in JSON.
 //!
-//! A derivative that is unique is a number. At a kink it is `[backward, forward]` if both were computed, otherwise
-//! `"at_kink"`.
+//! A derivative that is unique is a number. At a kink it is `"at_kink"`.
 
 use super::json::{Json, object};
 use crate::mechanics::analysis::{
@@ -46,8 +45,7 @@ fn vertex<'a>(scene: &'a Scene, found: &CornerSlope) -> Json<'a> {
     let (moves, along, slope) = match found.moves {
         CornerMoves::Freely(slopes) => ("freely", None, two(slopes)),
         CornerMoves::Along { direction, slope } => {
-            let moved = |slope: f64| direction * slope;
-            ("along", Some(direction), derivative(slope.unique().map(moved), slope.both().map(|both| both.map(moved))))
+            ("along", Some(direction), derivative(slope.unique().map(|slope| direction * slope)))
         }
         _ => ("not", None, object! { unique: false, slope: Json::Null }),
     };
@@ -62,25 +60,17 @@ fn vertex<'a>(scene: &'a Scene, found: &CornerSlope) -> Json<'a> {
     .and(slope)
 }
 
-/// Returns a derivative, or the derivatives along x and y: the unique one, or the backward and the forward one.
-fn derivative<'a, T: Into<Json<'a>>>(unique: Option<T>, sides: Option<[T; 2]>) -> Json<'a> {
-    object! {
-        unique: unique.is_some(),
-        slope: match (unique, sides) {
-            (Some(slope), _) => slope.into(),
-            (None, Some(sides)) => sides.into(),
-            (None, None) => Json::from("at_kink"),
-        },
-    }
+/// Returns a derivative, or the derivatives along x and y.
+fn derivative<'a, T: Into<Json<'a>>>(unique: Option<T>) -> Json<'a> {
+    object! { unique: unique.is_some(), slope: unique.map_or(Json::from("at_kink"), T::into) }
 }
 
 fn one<'a>(slope: Slope) -> Json<'a> {
-    derivative(slope.unique(), slope.both())
+    derivative(slope.unique())
 }
 
 fn two<'a>([x, y]: [Slope; 2]) -> Json<'a> {
-    let sides = x.both().zip(y.both()).map(|(x, y)| [0, 1].map(|side| [x[side], y[side]]));
-    derivative(x.unique().zip(y.unique()).map(|(x, y)| [x, y]), sides)
+    derivative(x.unique().zip(y.unique()).map(|(x, y)| [x, y]))
 }
 
 fn name(scene: &Scene, body: BodyId) -> &str {

@@ -2,7 +2,7 @@
 
 use super::failure::{named, pair};
 use super::margin::side;
-use super::number::{amount, digits, round_below_in, three};
+use super::number::{amount, counted, digits, round_below_in, three};
 use crate::geometry::Vector;
 use crate::mechanics::analysis::{
     CornerMoves, EndSensitivity, FALLS, FrameAnalysis, MarginKind, NoSensitivity, STANDS, Sensitivity, Slope,
@@ -196,30 +196,21 @@ fn others(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, o
     list
 }
 
-/// Returns the direction in which a change of a quantity enlarges the interval more: 1 for an increase, −1 for a
-/// decrease. The second value is the growth of the interval per unit of the quantity. Returns `None` if the interval
-/// grows in neither direction.
+/// Returns the direction in which a change of a quantity enlarges the interval: 1 for an increase, −1 for a decrease. The
+/// second value is the growth of the interval per unit of the quantity. Returns `None` if the interval grows in neither
+/// direction, or at a kink.
 fn best_side(slope: Slope, outward: f64) -> Option<(f64, f64)> {
-    let [backward, forward] = slope.both()?;
-    let sides = [(1.0, outward * forward), (-1.0, -outward * backward)];
-    let best = sides.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (best.1 > 0.0).then_some(best)
+    let rate = outward * slope.unique()?;
+    (rate != 0.0).then(|| (rate.signum(), rate.abs()))
 }
 
 /// Returns the unit vector along which a move enlarges the interval most, and the growth per metre. If a derivative
-/// is not unique, only moves along the x and y axes are compared. Returns `None` if no move enlarges the interval.
+/// is not unique, the move is along the other axis. Returns `None` if no such move enlarges the interval.
 pub fn best_direction(slopes: [Slope; 2], outward: f64) -> Option<(Vector, f64)> {
-    if let [Slope::Unique(x), Slope::Unique(y)] = slopes {
-        let gradient = Vector::new(x, y) * outward;
-        let size = gradient.norm();
-        return (size > 0.0).then(|| (gradient / size, size));
-    }
-    let axes = [Vector::new(1.0, 0.0), Vector::new(0.0, 1.0)];
-    let both = axes.into_iter().zip(slopes).filter_map(|(axis, slope)| {
-        let (side, rate) = best_side(slope, outward)?;
-        Some((axis * side, rate))
-    });
-    both.max_by(|a, b| a.1.total_cmp(&b.1))
+    let [x, y] = slopes.map(|slope| slope.unique().unwrap_or(0.0));
+    let gradient = Vector::new(x, y) * outward;
+    let size = gradient.norm();
+    (size > 0.0).then(|| (gradient / size, size))
 }
 
 /// Describes a direction by the nearest of eight directions: `up and to the left`.
@@ -289,7 +280,8 @@ pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis, sensitivity: &Sensit
         let kinks = kinks(end);
         if kinks > 0 {
             lines.push(format!(
-                "  {kinks} derivatives are not listed: they jump at this value, and their one-sided values were not computed"
+                "  not listed: {}, because they jump at this value",
+                counted(kinks, "derivative")
             ));
         }
     }
@@ -311,10 +303,9 @@ pub fn without(kind: MarginKind, reason: NoSensitivity) -> String {
     format!("no sensitivity of the {}: {why}", name(kind, true))
 }
 
-/// Returns the number of corners, weights, friction coefficients and loads for which the derivative jumps and its
-/// one-sided values were not computed.
+/// Returns the number of corners, weights, friction coefficients and loads for which the derivative jumps.
 fn kinks(end: &EndSensitivity) -> usize {
-    let is_kink = |slope: &Slope| slope.both().is_none();
+    let is_kink = |slope: &Slope| slope.unique().is_none();
     let corners = end.corners.iter().filter(|corner| match corner.moves {
         CornerMoves::Freely(slopes) => slopes.iter().any(is_kink),
         CornerMoves::Along { slope, .. } => is_kink(&slope),

@@ -1,12 +1,12 @@
 //! Combines the sensitivities of the components of a frame into the sensitivity of the frame.
 //!
-//! [`Slope`]: the derivative of a margin. It has one value, or two values if the margin has a kink.
+//! [`Slope`]: the derivative of a margin, unless the margin has a kink.
 
 use super::case::Case;
 use super::corners::Corners;
 use super::elimination::ZERO_TOL;
 use super::rates::Rates;
-use super::state::{EndState, Freedom};
+use super::state::EndState;
 use super::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity};
 use crate::mechanics::analysis::margin::{END_TOL, End, Interval, MarginKind};
 use crate::mechanics::scene::BodyId;
@@ -63,7 +63,7 @@ impl Search<'_> {
             }
             End::At { value, mechanism } => (*value, mechanism),
         };
-        let mut branches = Vec::new();
+        let mut all = Vec::new();
         let mut exact = value;
         for part in self.parts {
             let Some(mechanism) = self.mechanism_of(part, value, mechanism, outward) else {
@@ -74,16 +74,13 @@ impl Search<'_> {
             let rates = state.states.iter().map(|one| Rates::new(self.context, self.corners, &state.changed, one));
             let rates: Option<Vec<Rates>> = rates.collect();
             exact = state.value;
-            branches.push(Branch { rates: rates.ok_or(NoSensitivity::Unsolved)?, freedom: state.freedom, outward });
-        }
-        if branches.is_empty() {
-            return Err(NoSensitivity::Unsolved);
+            all.push(rates.ok_or(NoSensitivity::Unsolved)?);
         }
         let is_same = (exact - value).abs() <= 1e3 * END_TOL * value.abs().max(1e-3);
-        if !is_same {
+        if all.is_empty() || !is_same {
             return Err(NoSensitivity::Unsolved);
         }
-        Ok(self.slopes(exact, &branches, outward))
+        Ok(self.slopes(exact, &all))
     }
 
     /// Returns the mechanism by which a component falls beyond the end of the frame's interval. `None` if other
@@ -113,15 +110,17 @@ impl Search<'_> {
         }
     }
 
-    /// Combines the derivatives of all components that fall at this end into the derivatives of the frame.
-    fn slopes(&self, value: f64, branches: &[Branch], outward: f64) -> EndSensitivity {
+    /// Combines the derivatives for all states, of all components that fall at this end, into those of the frame. A
+    /// derivative is unique if it is the same for all of them.
+    fn slopes(&self, value: f64, all: &[Vec<Rates>]) -> EndSensitivity {
         let (scene, frame) = (self.context.scene, self.context.frame);
         let slope = |largest: f64, read: &dyn Fn(&Rates) -> f64| {
-            let each = branches.iter().map(|branch| branch.slope(largest, read));
-            let all = each.reduce(|a, b| a.with(b, outward));
-            all.unwrap_or(Slope::ZERO)
+            let mut each = all.iter().flatten().map(read);
+            let first = each.next().unwrap_or(0.0);
+            let is_unique = each.all(|other| (other - first).abs() <= ZERO_TOL * largest);
+            if is_unique { Slope::Unique(first) } else { Slope::AtKink }
         };
-        let first = || branches.iter().filter_map(|branch| branch.rates.first());
+        let first = || all.iter().filter_map(|rates| rates.first());
         let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m: f64, v| m.max(v.abs()));
         let corners = self.corners(&slope, most(&mut first().flat_map(|r| r.corners.iter().flat_map(|v| [v.x, v.y]))));
         let weight = most(&mut first().flat_map(|r| r.weights.iter().copied()));
@@ -195,93 +194,16 @@ impl Search<'_> {
 pub enum Slope {
     /// The same derivative if the number increases or decreases.
     Unique(f64),
-    /// The derivative jumps here: one value if the number decreases, and another if it increases.
-    OneSided {
-        /// The derivative if the number decreases.
-        backward: f64,
-        /// The derivative if the number increases.
-        forward: f64,
-    },
-    /// The derivative jumps here, and its two values were not computed.
+    /// The derivative jumps here.
     AtKink,
 }
 
 impl Slope {
-    /// The slope of an end that does not change.
-    pub(super) const ZERO: Slope = Slope::Unique(0.0);
-
     /// Returns the derivative if it is the same on both sides; otherwise `None`.
     pub fn unique(self) -> Option<f64> {
         match self {
             Slope::Unique(slope) => Some(slope),
-            _ => None,
-        }
-    }
-
-    /// Returns the two one-sided derivatives: if the number decreases, and if it increases. `None` if they were not
-    /// computed.
-    pub fn both(self) -> Option<[f64; 2]> {
-        match self {
-            Slope::Unique(slope) => Some([slope; 2]),
-            Slope::OneSided { backward, forward } => Some([backward, forward]),
             Slope::AtKink => None,
         }
-    }
-
-    /// Returns the slope of the minimum of two functions, or of their maximum if `outward` is negative. `self` and
-    /// `other` are the slopes of the two functions at a point where both have the same value.
-    pub(super) fn with(self, other: Slope, outward: f64) -> Slope {
-        let (Some([a, b]), Some([c, d])) = (self.both(), other.both()) else {
-            return Slope::AtKink;
-        };
-        Slope::one_sided(outward * (outward * a).max(outward * c), outward * (outward * b).min(outward * d), 0.0)
-    }
-
-    /// Returns the mean as a unique slope if both derivatives differ by at most `tolerance`. Otherwise returns both.
-    fn one_sided(backward: f64, forward: f64, tolerance: f64) -> Slope {
-        if (backward - forward).abs() <= tolerance {
-            Slope::Unique(0.5 * (backward + forward))
-        } else {
-            Slope::OneSided { backward, forward }
-        }
-    }
-}
-
-/// The derivatives of one component at one end, for each state that was computed there.
-pub(super) struct Branch {
-    pub rates: Vec<Rates>,
-    pub freedom: Freedom,
-    pub outward: f64,
-}
-
-impl Branch {
-    /// Combines the derivatives at all states into one slope: unique, one-sided or at a kink. `read` returns the
-    /// derivative for one state. Two derivatives are equal if they differ by at most `ZERO_TOL · largest`, where `largest`
-    /// is the largest absolute derivative of the same kind.
-    pub fn slope(&self, largest: f64, read: impl Fn(&Rates) -> f64) -> Slope {
-        let Some(first) = self.rates.first() else {
-            return Slope::AtKink;
-        };
-        let first = read(first);
-        let others = || self.rates[1..].iter().map(&read);
-        let is_same = |rate: f64| (rate - first).abs() <= ZERO_TOL * largest;
-        let is_unique = match self.freedom {
-            Freedom::Unique => true,
-            Freedom::Unknown => false,
-            _ => others().all(is_same),
-        };
-        if is_unique {
-            return Slope::Unique(first);
-        }
-        let least = others().fold(f64::INFINITY, f64::min);
-        let most = others().fold(f64::NEG_INFINITY, f64::max);
-        // Each mechanism gives a limit of the parameter, and the nearest limit decides. An upper end therefore changes
-        // with the smallest derivative if the number increases, and with the largest if it decreases.
-        if self.freedom != Freedom::Mechanisms {
-            return Slope::AtKink;
-        }
-        let is_least = self.outward > 0.0;
-        let [backward, forward] = if is_least { [most, least] } else { [least, most] };
-        Slope::OneSided { backward, forward }
     }
 }

@@ -9,8 +9,8 @@
 //! 2. [`Reduced`] has three equations for each group, and one unknown for each force between groups.
 //! 3. Elimination solves for the motions of the groups. Newton's method solves for the forces and the value, up to
 //!    rounding.
-//! 4. The dimensions of the null spaces show whether forces and motions are unique. If the forces are unique but the
-//!    motions are not, all extreme motions are computed. Otherwise, some other forces and motions are computed.
+//! 4. The null spaces show whether forces and motions are unique. If they are not, some other forces and motions show
+//!    which derivatives are: those that stay the same.
 
 use super::case::Case;
 use super::elimination::{Elimination, ROUNDING_TOL, ZERO_TOL};
@@ -20,29 +20,11 @@ use crate::mechanics::statics::assembly::Assembly;
 /// The derivatives are not computed for more groups than this: the time grows with the cube of their number.
 const MAX_GROUPS: usize = 150;
 
-/// If there would be more states than this, only the first is computed.
-const MAX_STATES: usize = 64;
-
-/// If there would be more combinations of conditions than this, extreme motions are not computed.
-const MAX_COMBINATIONS: usize = 4000;
+/// How many further states tell whether a derivative is unique, if forces or mechanism are not.
+const OTHER_STATES: u32 = 2;
 
 /// The largest number of Newton steps for the forces and the value.
 const MAX_NEWTON_STEPS: usize = 12;
-
-/// Whether forces and mechanism at the end are unique.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Freedom {
-    /// Forces and mechanism are unique.
-    Unique,
-    /// The forces are unique, the mechanism is not. The first state lies inside the set of mechanisms; the other states
-    /// are all its extreme points.
-    Mechanisms,
-    /// The forces are not unique, or the extreme mechanisms were not found. The other states differ from the first in
-    /// each independent direction of forces and mechanisms.
-    Hull,
-    /// The set of forces and mechanisms has too many dimensions, so the other states are not computed.
-    Unknown,
-}
 
 /// The states at one end of the interval of a component.
 pub(super) struct EndState {
@@ -50,9 +32,8 @@ pub(super) struct EndState {
     pub changed: Assembly,
     /// The value of the parameter there.
     pub value: f64,
-    /// One state, and further states if it is not unique.
+    /// One state. If it is not unique, some others follow, with which a derivative differs if it is not unique.
     pub states: Vec<State>,
-    pub freedom: Freedom,
 }
 
 impl EndState {
@@ -92,59 +73,33 @@ impl EndState {
             return None;
         }
         let balances = null_balances(case, &reduced, &changed, &amounts, value)?;
-        let mut found = EndState {
-            states: vec![reduced.state(case, &changed, &motions.first, &amounts, value)],
-            freedom: Freedom::Unique,
-            changed,
-            value,
+        let state = |turn: u32| {
+            let motion = moved(&motions.first, &motions.null_space, turn);
+            reduced.state(case, &changed, &motion, &moved(&amounts, &balances, turn), value)
         };
-        found.add_others(case, &reduced, &motions, &amounts, &balances);
-        Some(found)
-    }
-
-    /// If forces or mechanism are not unique, adds further states, and sets `freedom` accordingly.
-    fn add_others(
-        &mut self,
-        case: &Case,
-        reduced: &Reduced,
-        motions: &Motions,
-        amounts: &[f64],
-        balances: &[Vec<f64>],
-    ) {
-        let (changed, value) = (self.changed.clone(), self.value);
-        let state = |motion: &[f64], amounts: &[f64]| reduced.state(case, &changed, motion, amounts, value);
-        if motions.null_space.is_empty() && balances.is_empty() {
-            return;
-        }
-        let extreme = if balances.is_empty() { extreme_motions(reduced, &changed, motions) } else { None };
-        if let Some(all) = extreme {
-            self.freedom = Freedom::Mechanisms;
-            let states = all.iter().map(|motion| state(motion, amounts));
-            self.states.extend(states);
-            return;
-        }
-        if (1 + motions.null_space.len()) * (1 + balances.len()) > MAX_STATES {
-            self.freedom = Freedom::Unknown;
-            return;
-        }
-        // Combine every motion with every set of forces: the derivative is linear in each of them.
-        self.freedom = Freedom::Hull;
-        let moved = |first: &[f64], by: &[f64]| -> Vec<f64> {
-            let share = largest(first) / largest(by);
-            first.iter().zip(by).map(|(a, b)| a + share * b).collect()
-        };
-        let all_motions: Vec<Vec<f64>> = std::iter::once(motions.first.clone())
-            .chain(motions.null_space.iter().map(|by| moved(&motions.first, by)))
-            .collect();
-        let all_amounts: Vec<Vec<f64>> =
-            std::iter::once(amounts.to_vec()).chain(balances.iter().map(|by| moved(amounts, by))).collect();
-        for (k, motion) in all_motions.iter().enumerate() {
-            for amounts in all_amounts.iter().skip(usize::from(k == 0)) {
-                self.states.push(state(motion, amounts));
-            }
-        }
+        let is_unique = motions.null_space.is_empty() && balances.is_empty();
+        let others = if is_unique { 0 } else { OTHER_STATES };
+        let states = (0..=others).map(state).collect();
+        Some(EndState { states, changed, value })
     }
 }
+
+/// Adds to a motion or to forces a multiple of each direction in which they may differ; nothing in turn 0.
+///
+/// The multiples have no pattern: a derivative is linear in the motion and in the forces, so a derivative that differs in
+/// any of these directions differs here.
+fn moved(first: &[f64], directions: &[Vec<f64>], turn: u32) -> Vec<f64> {
+    let mut moved = first.to_vec();
+    for (number, by) in directions.iter().enumerate().filter(|_| turn > 0) {
+        let multiple = 0.5 + ((number + 1) as f64 * f64::from(turn) * GOLDEN_RATIO).fract();
+        let share = multiple * largest(first) / largest(by);
+        moved.iter_mut().zip(by).for_each(|(v, by)| *v += share * by);
+    }
+    moved
+}
+
+/// The golden ratio. The fractions of its multiples have no pattern.
+const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
 
 /// Solves by Newton's method for the forces between groups and for the value of the parameter at which they balance the
 /// loads. Starts from the forces of the linear program; forces that are not basic stay 0. `None` if the method does not
@@ -245,94 +200,6 @@ impl Motions {
         let first: Vec<f64> = start.iter().zip(change).map(|(a, b)| a + b).collect();
         (*error <= ROUNDING_TOL * largest(&first)).then_some(Motions { first, null_space: solved.null_space })
     }
-}
-
-/// Returns all extreme points of the set of possible motions. `None` if the set is unbounded, if there are too many
-/// combinations of conditions to test, or if too few points are found.
-///
-/// A motion is first + Σ share · other. A force between groups that is 0 must not do negative work. At an extreme
-/// motion, as many of these conditions hold with equality as there are shares.
-fn extreme_motions(reduced: &Reduced, changed: &Assembly, motions: &Motions) -> Option<Vec<Vec<f64>>> {
-    let free = motions.null_space.len();
-    let conditions: Vec<Condition> = (reduced.unknowns.iter())
-        .filter(|unknown| !unknown.is_basic)
-        .map(|unknown| {
-            let power = |motion: &[f64]| reduced.power(changed, unknown, motion);
-            let shares = motions.null_space.iter().map(|m| power(m) / largest(m));
-            Condition { first: power(&motions.first), shares: shares.collect() }
-        })
-        .collect();
-    let speed = largest(&motions.first);
-    // True if the motion `with` · first + Σ share · other meets all conditions.
-    let meets = |shares: &[f64], with: f64| {
-        let tolerance = ZERO_TOL * speed.max(largest(shares));
-        conditions.iter().all(|c| c.power(shares, with) >= -tolerance)
-    };
-    let rows = |chosen: &[usize]| -> Vec<Vec<f64>> { chosen.iter().map(|k| conditions[*k].shares.clone()).collect() };
-    // If some direction satisfies all conditions, the set of motions is unbounded.
-    for chosen in subsets(conditions.len(), free - 1)? {
-        let found = Elimination::new(&rows(&chosen), free, &[]);
-        if let [direction] = found.null_space.as_slice() {
-            let opposite: Vec<f64> = direction.iter().map(|v| -v).collect();
-            if meets(direction, 0.0) || meets(&opposite, 0.0) {
-                return None;
-            }
-        }
-    }
-    let mut all: Vec<Vec<f64>> = Vec::new();
-    for chosen in subsets(conditions.len(), free)? {
-        let side = chosen.iter().map(|k| -conditions[*k].first).collect();
-        let found = Elimination::new(&rows(&chosen), free, &[side]);
-        let (shares, _) = &found.solutions[0];
-        if found.null_space.is_empty() && meets(shares, 1.0) {
-            let mut motion = motions.first.clone();
-            for (share, other) in shares.iter().zip(&motions.null_space) {
-                let size = largest(other);
-                for (v, o) in motion.iter_mut().zip(other) {
-                    *v += share * o / size;
-                }
-            }
-            all.push(motion);
-        }
-    }
-    // A bounded set of this dimension has more extreme points than dimensions. With fewer points, the result is
-    // incomplete.
-    (all.len() > free).then_some(all)
-}
-
-/// A force that must not do negative work: its power along the first motion, and its power per share of each other
-/// motion.
-struct Condition {
-    first: f64,
-    shares: Vec<f64>,
-}
-
-impl Condition {
-    /// Returns the power along a combination of motions: `with` times the first motion, plus `shares` times the others.
-    fn power(&self, shares: &[f64], with: f64) -> f64 {
-        let change: f64 = self.shares.iter().zip(shares).map(|(a, b)| a * b).sum();
-        with * self.first + change
-    }
-}
-
-/// Returns all subsets of `count` numbers from 0, 1, …, `total` − 1. `None` if there are too many.
-fn subsets(total: usize, count: usize) -> Option<Vec<Vec<usize>>> {
-    let mut all: Vec<Vec<usize>> = vec![Vec::new()];
-    for _ in 0..count {
-        let mut longer = Vec::new();
-        for chosen in &all {
-            for k in chosen.last().map_or(0, |last| last + 1)..total {
-                let mut more = chosen.clone();
-                more.push(k);
-                longer.push(more);
-            }
-        }
-        if longer.len() > MAX_COMBINATIONS {
-            return None;
-        }
-        all = longer;
-    }
-    Some(all)
 }
 
 /// Returns the largest absolute value of a list; 0 for an empty list.
