@@ -216,9 +216,9 @@ fn costly_xml_and_styles() {
     let classes: String = (0..20_000).map(|i| format!("c{i} ")).collect();
     let rects = r#"<rect width="3" height="3"/>"#.repeat(5_000);
     let body = format!(r#"<style>{rules}</style><rect class="{classes}"/>{rects}"#);
-    refused("rules.svg", svg(&body), "20000 style rules and 5003 elements need too many comparisons");
+    refused("rules.svg", svg(&body), "20000 style rules are too many");
     let body = format!("<style>{}</style>{}", "*{fill:red}".repeat(80_000), &rects[..2_800]);
-    refused("all.svg", svg(&body), "80000 style rules and 102 elements need too many comparisons");
+    refused("all.svg", svg(&body), "80000 style rules are too many");
     let corners: String = (0..3_000)
         .map(|k| {
             let (sin, cos) = libm::sincos(2.4 * f64::from(k));
@@ -334,7 +334,7 @@ fn a_figure_or_a_report_of_very_many_panels() {
     .to_string();
     let words = "a figure of 40001 panels is too large, at most 2000 are drawn";
     for arguments in
-        ["render steps.json -o a.svg", "render steps.json -o a.gif --animate", "render steps.json --panels -o a.svg"]
+        ["render steps.json -o a.svg", "render steps.json -o a.gif --animate 2", "render steps.json --panels -o a.svg"]
     {
         refused("steps.json", &text, arguments, words);
     }
@@ -446,7 +446,11 @@ fn certificates_of_strangers() {
     let step = [json!((1..=30).collect::<Vec<_>>()), json!((0..200).collect::<Vec<_>>())];
     let forces = json!({ "contacts": vec![[1, 1, 0]; 70], "grips": [], "order": [step] });
     let bodies: Vec<_> = (0..31).map(|k| body(k == 0, triangle())).collect();
-    let steps = frame("stable", (1..31).collect(), json!(contacts), [forces, json!(null)]);
+    let steps = |number: usize| {
+        let mut frame = frame("stable", (1..31).collect(), json!(contacts), [forces.clone(), json!(null)]);
+        frame["frame"] = json!(number);
+        frame
+    };
     let limits = vec![json!({ "frame": 1, "of": "", "change": {}, "verdict": "stable" }); 9_000];
     let many = (0..5_000).map(|k| body(k == 0, triangle())).collect();
     let empty = frame("undecided", Vec::new(), json!([]), [json!(null), json!(null)]);
@@ -454,7 +458,7 @@ fn certificates_of_strangers() {
     let two = || vec![body(true, json!(long)), body(false, json!(long))];
     let near = vec![json!({ "bodies": [1, 0], "points": [[0, 0], [1, 0]], "friction": 0 }); 6_000];
     let files = [
-        ("steps.json", file(true, bodies, vec![steps; 4], Vec::new())),
+        ("steps.json", file(true, bodies, (1..5).map(steps).collect(), Vec::new())),
         ("limits.json", file(true, many, vec![empty], limits)),
         (
             "long.json",

@@ -6,7 +6,7 @@ use std::{fs, io};
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::picture::Format;
 use crate::entry::cli::source::name;
-use crate::entry::cli::terminal::Terminal;
+use crate::entry::cli::terminal::{self, Terminal};
 use crate::pictures::output::file::{Existing, same, write_whole};
 use crate::read::file::ending;
 use crate::text;
@@ -104,6 +104,7 @@ pub(crate) fn refuse_overwrites(outputs: &[PathBuf], inputs: &[&Path]) -> Result
 /// Writes all files or none. `existing` says whether existing files are replaced. If they are not, an existing file is
 /// an error, and its message mentions `--force`. Only the paths in `typed`, which the user wrote, may be links.
 pub(crate) fn write(files: &[(PathBuf, Vec<u8>)], existing: Existing, typed: &[PathBuf]) -> Result<(), CliError> {
+    terminal::deliver();
     write_whole(files, existing, typed).map_err(|unwritten| CliError::NotWritten {
         what: unwritten.path.display().to_string(),
         why: match unwritten.why.kind() {

@@ -6,7 +6,8 @@
 
 use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::OnceLock;
+use std::thread;
 
 use anstream::ColorChoice;
 use clap::{Args, ValueEnum};
@@ -87,7 +88,7 @@ impl Terminal {
 
     /// Prints a page to standard output, in lines that are at most as wide as the terminal.
     pub(crate) fn print(&self, page: &Page) -> Result<(), CliError> {
-        PRINTS.store(true, Ordering::Relaxed);
+        deliver();
         let page = fitted(page, self.width());
         let mut stream = anstream::stdout().lock();
         written(stream.write_all(page.text().as_bytes()).and_then(|()| stream.flush()))
@@ -100,7 +101,7 @@ impl Terminal {
 
     /// Prints what `write` writes to standard output, like [`Self::print_bytes`].
     pub(crate) fn print_with(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), CliError> {
-        PRINTS.store(true, Ordering::Relaxed);
+        deliver();
         let mut stream = io::BufWriter::new(io::stdout().lock());
         written(write(&mut stream).and_then(|()| stream.flush()))
     }
@@ -147,12 +148,20 @@ impl Terminal {
     }
 }
 
-/// Whether a command prints its results.
-static PRINTS: AtomicBool = AtomicBool::new(false);
+/// Whether the time limit ended the command; decided once, by what comes first.
+static IS_LATE: OnceLock<bool> = OnceLock::new();
 
-/// True if a command has begun to print its results.
-pub(crate) fn has_begun_to_print() -> bool {
-    PRINTS.load(Ordering::Relaxed)
+/// Says that the command begins to deliver its results. From now on no time limit ends it. If the limit has just ended the
+/// command, this function does not return.
+pub(crate) fn deliver() {
+    while *IS_LATE.get_or_init(|| false) {
+        thread::park();
+    }
+}
+
+/// Returns true if the time limit may end the command, because nothing was delivered.
+pub(crate) fn is_late() -> bool {
+    *IS_LATE.get_or_init(|| true)
 }
 
 /// Returns the text of a page without escape codes.

@@ -8,7 +8,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::entry::cli::error::CliError;
-use crate::entry::cli::terminal::{Terminal, has_begun_to_print};
+use crate::entry::cli::terminal::{Terminal, is_late};
 use crate::entry::value::TimeLimit;
 use crate::pictures::output::file::abandon;
 
@@ -28,8 +28,8 @@ impl Watchdog {
         let (ended, end) = channel();
         let terminal = *terminal;
         thread::spawn(move || {
-            // Once a command prints its results, only their reader can delay it.
-            if end.recv_timeout(limit.left(GRACE)) == Err(RecvTimeoutError::Timeout) && !has_begun_to_print() {
+            // Once a command prints or writes its results, only their reader or the disk can delay it.
+            if end.recv_timeout(limit.left(GRACE)) == Err(RecvTimeoutError::Timeout) && is_late() {
                 let words = "was reached before the result was ready; nothing was written";
                 let complaint = CliError::from(format!("the time limit of {:?} {words}", limit.given));
                 terminal.refuse(&complaint);

@@ -27,6 +27,7 @@ mod wedged;
 pub(crate) mod acting;
 mod thrust_states;
 mod movement;
+mod answers;
 mod condition;
 mod reach;
 mod vehicle;

@@ -14,7 +14,7 @@
 
 use std::sync::Arc;
 
-use super::cases::Answers;
+use super::answers::Answers;
 use super::condition::Condition;
 use super::decide::decided_forces;
 use super::margin::{END_TOL, End, largest_load_factor};

@@ -279,10 +279,7 @@ pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis, sensitivity: &Sensit
         }
         let kinks = kinks(end);
         if kinks > 0 {
-            lines.push(format!(
-                "  not listed: {}, because they jump at this value",
-                counted(kinks, "derivative")
-            ));
+            lines.push(format!("  not listed: {}, because they jump at this value", counted(kinks, "derivative")));
         }
     }
     lines

@@ -32,6 +32,9 @@ pub enum MarginKind {
     Robots,
 }
 
+/// Returns how a component changes with a parameter, from its change for a value of the parameter.
+type PathOf = fn(&Trial, fn(f64) -> Setting) -> Path<'static>;
+
 /// What distinguishes a kind of margin from the others. A pair of texts belongs to the lower and the upper end of the
 /// interval.
 pub(crate) struct About {
@@ -63,7 +66,7 @@ pub(crate) struct About {
     /// The loads that the parameter adds per unit, at a value; `None` if the loads do not depend on it.
     pub(in crate::mechanics::analysis) growth: Option<fn(f64) -> Setting>,
     /// How a component changes with the parameter.
-    path: fn(&Trial, fn(f64) -> Setting) -> Path<'static>,
+    path: PathOf,
 }
 
 impl About {
