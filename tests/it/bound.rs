@@ -182,14 +182,12 @@ fn one_id_for_all_elements_and_very_many_classes() {
     let ran = run("ids.svg", &svg(&body), "import ids.svg -q -o ids.json");
     assert_eq!(ran.code, Some(0), "{}", ran.messages);
     let mut body = String::from("<style>");
-    for i in 0..14_000 {
+    for i in 0..4_900 {
         let _ = write!(body, ".c{i}{{fill:red}}");
     }
     body += "</style>";
-    for i in 0..14_000 {
-        let _ = write!(body, r#"<rect class="c{i}" x="{}" width="4" height="4"/>"#, 5 * i);
-    }
-    refused("classes.svg", &svg(&body), "import classes.svg", "14000 style rules and 14002 elements");
+    body += &r#"<g class="c1"/>"#.repeat(40_000);
+    refused("classes.svg", &svg(&body), "import classes.svg", "4900 style rules and 40002 elements");
     // Each part of the selector stands for any ancestor.
     let selector = format!("z{} .a", " g".repeat(12));
     let groups = ["<g>", "</g>"].map(|tag| tag.repeat(40));
