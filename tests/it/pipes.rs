@@ -12,8 +12,7 @@ use std::time::{Duration, Instant};
 use serde_json::json;
 use tempfile::TempDir;
 
-const SCENE: &str =
-    r#"{ "drystone": 1, "ground": [{ "polygon": [[-1, -1], [2, -1], [2, 0], [-1, 0]] }],
+const SCENE: &str = r#"{ "drystone": 1, "ground": [{ "polygon": [[-1, -1], [2, -1], [2, 0], [-1, 0]] }],
         "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 1], [0, 1]], "weight": 1 }] }"#;
 
 /// A program with debug assertions is many times slower, and so is a busy machine.
