@@ -8,6 +8,7 @@ from fractions import Fraction
 number = lambda value: type(value) in (int, Fraction)
 index = lambda value: type(value) is int and value >= 0
 flag = lambda value: type(value) is bool
+corners = lambda value: flag(value) or value == "on_edges"
 word = lambda value: type(value) is str
 pair, three = (number, number), (number, number, number)
 or_null = lambda shape: lambda value: value is None or not list(wrong(value, shape, ""))
@@ -28,7 +29,7 @@ CIRCLE = {"centre": pair, "radius": number}
 BODY = {"id": word, "ground": flag, "outline": [pair], "weight": number}
 BODY |= {"circle?": CIRCLE, "holes?": [[pair]], "centre?": pair, "loads?": [LOAD]}
 FRAME = PROOF | CHANGED | {"gravity": pair, "placed": [index], "contacts": [CONTACT], "grips?": [GRIP]}
-FILE = {"drystone_certificate": index, "scene_sha256": word, "distance": number, "corners_carry": flag}
+FILE = {"drystone_certificate": index, "scene_sha256": word, "distance": number, "corners_carry": corners}
 FILE |= {"shortest": number, "listed": flag, "bodies": [BODY], "frames": [FRAME]}
 FILE |= {"limits?": [PROOF | {"of": word, "change": CHANGE}]}
 

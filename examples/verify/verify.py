@@ -147,13 +147,14 @@ def missing(file, frame):
 
 def touch(file, one, two, own, edges):
     """Whether edges of two bodies come close where there is no contact: at a corner, or where a circle is nearest."""
-    r, d = one["radius"] + two["radius"], file["distance"]
+    r, d, carry = one["radius"] + two["radius"], file["distance"], file["corners_carry"]
     sides = [(Fraction(one["radius"]) / (r or 1), *edges), (Fraction(two["radius"]) / (r or 1), *edges[::-1])]
     ends = [(p, foot(p, *other), share) for share, edge, other in sides for p in edge if share or not r]
     points = [plus(p, sub(q, p), share) for p, q, share in ends if apart2(p, q) <= (r + d) ** 2]
     near = (2 * d + file["shortest"]) ** 2 + 4 * r * d
     bare = [p for p in points if all(apart2(p, foot(p, c[0], c[-1])) > near for c in own)]
-    return any(file["corners_carry"] or p not in sum(edges, ()) or apart2(p, q) > near for p in bare for q in bare)
+    tip = lambda p: carry is not True and all(any(apart2(p, q) <= near for q in edge) for edge in edges)
+    return any(p not in sum(edges, ()) or apart2(p, q) > near or (carry and not tip(p)) for p in bare for q in bare)
 
 def form(file, frame):
     """Returns what is not valid in a frame: bodies that are not there, and numbers of a wrong sign."""

@@ -7,7 +7,7 @@ import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from . import _compas, _drystone, _geometry
 from ._errors import DrystoneError, SceneError
@@ -43,7 +43,7 @@ class Scene:
         gravity: Point | None = None,
         kernel: float | None = None,
         contact_tolerance: float | None = None,
-        corner_contacts: bool | None = None,
+        corner_contacts: bool | Literal["on_edges"] | None = None,
         grid: Mapping[str, Any] | None = None,
         vehicle: Mapping[str, Any] | None = None,
         expect: str | None = None,

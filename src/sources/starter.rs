@@ -5,8 +5,8 @@
 //! points right, y up.
 
 use crate::mechanics::scene::format::{
-    BlockEntry, CellEntry, CellHalf, GridEntry, GridKind, GripEntry, GroundEntry, HoldEntry, Map, Pair, RobotEntry,
-    SceneFile, StepEntry,
+    BlockEntry, CellEntry, CellHalf, CornerContacts, GridEntry, GridKind, GripEntry, GroundEntry, HoldEntry, Map, Pair,
+    RobotEntry, SceneFile, StepEntry,
 };
 
 /// Coordinates are rounded to this many significant digits of the smallest length of the structure. The numbers are
@@ -154,6 +154,121 @@ impl Tower {
             density: Some(STONE_DENSITY),
             ground: vec![floor(round(-self.width), round(2.0 * self.width), round(self.height))],
             blocks: (0..self.blocks).map(storey).collect(),
+            ..SceneFile::default()
+        }
+    }
+}
+
+/// A ladder that leans at a wall: its lower corner stands on the floor, its upper corner touches the wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ladder {
+    /// The length from the floor to the wall, in metres.
+    pub length: f64,
+    /// The thickness, in metres.
+    pub thickness: f64,
+    /// The angle between the ladder and the floor, from 5 to 85 degrees.
+    pub angle: f64,
+    /// Friction coefficient at the floor.
+    pub friction: f64,
+    /// Friction coefficient at the wall.
+    pub wall_friction: f64,
+}
+
+impl Default for Ladder {
+    /// Returns a ladder of 4 m by 0.06 m at 65° to the floor, with a friction coefficient of 0.7 at the floor and a smooth
+    /// wall. It stands.
+    fn default() -> Ladder {
+        Ladder { length: 4.0, thickness: 0.06, angle: 65.0, friction: 0.7, wall_friction: 0.0 }
+    }
+}
+
+impl Ladder {
+    /// Returns a scene file with the ladder, the floor and the wall. The ladder weighs 200 N. Corners that touch an edge carry
+    /// force.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::{Analysis, Scene, analysis::Verdict, starter::Ladder};
+    /// // A thin ladder at a smooth wall stands if the friction at the floor is at least 1 / (2 tan 65°) = 0.233.
+    /// let ladder = |friction| Scene::new(Ladder { friction, thickness: 1e-3, ..Ladder::default() }.scene());
+    /// assert_eq!(Analysis::new(&ladder(0.235)?).verdict(), Verdict::Stable);
+    /// assert_eq!(Analysis::new(&ladder(0.231)?).verdict(), Verdict::Unstable);
+    /// # Ok::<(), drystone::scene::SceneError>(())
+    /// ```
+    pub fn scene(&self) -> SceneFile {
+        let round = |x: f64| rounded(x, self.thickness);
+        let (sin, cos) = libm::sincos(self.angle.to_radians());
+        let (x, y) = (round(self.length * cos), round(self.length * sin));
+        let across = [-round(self.thickness * sin), round(self.thickness * cos)];
+        let outline = vec![[0.0, 0.0], [x, y], [round(x + across[0]), round(y + across[1])], across];
+        let (depth, side) = (round(0.1 * self.length), round(0.3 * self.length));
+        let [mut floor, mut wall] = [
+            rectangle([-side, -depth], [round(x + depth), 0.0]),
+            rectangle([x, 0.0], [round(x + depth), round(y + side)]),
+        ]
+        .map(|polygon| GroundEntry { polygon: Some(polygon), ..GroundEntry::default() });
+        floor.id = Some("floor".into());
+        (wall.id, wall.friction) = (Some("wall".into()), Some(self.wall_friction));
+        SceneFile {
+            title: Some(format!("A ladder at {}° to the floor", self.angle)),
+            friction: Some(self.friction.max(self.wall_friction)),
+            corner_contacts: Some(CornerContacts::ON_EDGES),
+            ground: vec![GroundEntry { friction: Some(self.friction), ..floor }, wall],
+            blocks: vec![BlockEntry { weight: Some(200.0), ..block("ladder".into(), outline) }],
+            ..SceneFile::default()
+        }
+    }
+}
+
+/// A block on an inclined plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Incline {
+    /// The angle of the plane to the horizontal, from 0 to 85 degrees.
+    pub angle: f64,
+    /// Width of the block along the plane, in metres.
+    pub width: f64,
+    /// Height of the block, in metres.
+    pub height: f64,
+    /// Friction coefficient.
+    pub friction: f64,
+}
+
+impl Default for Incline {
+    /// Returns a block of 1 m by 1 m on a plane at 20°, with a friction coefficient of 0.7. It stands.
+    fn default() -> Incline {
+        Incline { angle: 20.0, width: 1.0, height: 1.0, friction: 0.7 }
+    }
+}
+
+impl Incline {
+    /// Returns a scene file with the block, of stone with 2500 kg/m³, on the plane. Corners that touch an edge carry force.
+    ///
+    /// # Example
+    /// ```
+    /// use drystone::{Analysis, Scene, analysis::Verdict, starter::Incline};
+    /// let block = |angle, friction| Scene::new(Incline { angle, friction, ..Incline::default() }.scene());
+    /// // It slides where tan α exceeds μ, and topples where tan α exceeds the ratio of width and height.
+    /// assert_eq!(Analysis::new(&block(34.9, 0.7)?).verdict(), Verdict::Stable);
+    /// assert_eq!(Analysis::new(&block(35.1, 0.7)?).verdict(), Verdict::Unstable);
+    /// assert_eq!(Analysis::new(&block(45.1, 2.0)?).verdict(), Verdict::Unstable);
+    /// # Ok::<(), drystone::scene::SceneError>(())
+    /// ```
+    pub fn scene(&self) -> SceneFile {
+        let round = |x: f64| rounded(x, self.width.min(self.height));
+        let plane = rectangle([0.0, -round(0.5 * self.width)], [round(4.0 * self.width), 0.0]);
+        let corners = rectangle([round(1.5 * self.width), 0.0], [round(2.5 * self.width), round(self.height)]);
+        SceneFile {
+            title: Some(format!("A block on a plane at {}°", self.angle)),
+            friction: Some(self.friction),
+            density: Some(STONE_DENSITY),
+            corner_contacts: Some(CornerContacts::ON_EDGES),
+            ground: vec![GroundEntry {
+                id: Some("plane".into()),
+                polygon: Some(plane),
+                angle: Some(self.angle),
+                ..GroundEntry::default()
+            }],
+            blocks: vec![BlockEntry { angle: Some(self.angle), ..block("block".into(), corners) }],
             ..SceneFile::default()
         }
     }

@@ -134,6 +134,39 @@ fn results_name_the_case_or_the_position_that_decides_each_answer() {
     assert_eq!(&own(falls.clone())["removable"][0]["position"], governing);
 }
 
+/// A ladder of 100 N on a floor with friction `mu`, whose upper corner touches a wall.
+fn ladder(mu: f64, corners: impl Into<Value>) -> FrameAnalysis {
+    let file = json!({ "drystone": 1, "friction": mu, "corner_contacts": corners.into(), "ground": [
+            { "id": "floor", "polygon": [[-3, -1], [3.2, -1], [3.2, 0], [-3, 0]] },
+            { "id": "wall", "polygon": [[2.2, 0], [3.2, 0], [3.2, 6], [2.2, 6]] }],
+        "blocks": [{ "id": "ladder", "polygon": [[0, 0], [0.12, 0], [2.2, 4.5], [2.1, 4.55]], "weight": 100 }] });
+    frame(scene(&file), &Options::default().margins(true))
+}
+
+#[test]
+fn a_ladder_that_stands_only_by_its_corner_says_so() {
+    let analysis = |mu: f64, corners: bool| {
+        let found = ladder(mu, corners);
+        (found.verdict, found.corners_decide)
+    };
+    assert_eq!(analysis(0.6, false), (Verdict::Unstable, true));
+    assert_eq!(analysis(0.6, true), (Verdict::Stable, true));
+    // All corners, or those on edges, are the same here.
+    assert_eq!((ladder(0.6, "on_edges").verdict, ladder(0.6, "on_edges").corners_decide), (Verdict::Stable, true));
+    // On a slippery floor it falls in any case.
+    assert_eq!(analysis(0.05, false), (Verdict::Unstable, false));
+    assert_eq!(analysis(0.05, true), (Verdict::Unstable, false));
+    let falls = ladder(0.6, false);
+    assert!(
+        falls.notices.iter().any(|notice| notice.contains("--set corner_contacts=on_edges")),
+        "{:?}",
+        falls.notices
+    );
+    let stands = ladder(0.6, "on_edges");
+    assert_eq!(stands.verdict, Verdict::Stable);
+    assert!(stands.notices.iter().any(|notice| notice.contains("only because corners")), "{:?}", stands.notices);
+}
+
 #[test]
 fn margins_of_a_bridge_hold_with_its_vehicle_at_the_governing_position() {
     let file: Value = serde_json::from_str(BRIDGE).expect("JSON");

@@ -78,6 +78,21 @@ fn cases() -> Vec<(String, NoteCode, &'static str, usize)> {
             "blocks",
             2,
         ),
+        // Kilonewtons per cubic metre as a density, and pounds-force per cubic foot of water.
+        (
+            scene(&format!("\"blocks\": [{{ {square}, \"density\": 23 }}]")),
+            NoteCode::ImplausibleDensity,
+            "blocks[0].density",
+            2,
+        ),
+        (
+            scene(&format!(
+                "\"units\": {{ \"length\": \"ft\", \"force\": \"lbf\" }}, {block}, \"loads\": [{{ \"block\": \"a\", \"side\": \"left\",\n\"pressure\": {{ \"surface\": 1, \"unit_weight\": 62.4 }} }}]"
+            )),
+            NoteCode::ImplausibleUnitWeight,
+            "loads[0].pressure.unit_weight",
+            3,
+        ),
         // A picture, in which y points down.
         (
             scene("\"blocks\": [{ \"polygon\": [[0, -9], [1, -9], [1, -8], [0, -8]], \"weight\": 5 }]"),

@@ -362,6 +362,14 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
             "cases": [{ "id": "with" }, { "id": "without", "loads": {} }] }"#
             .to_owned(),
     );
+    // A ladder that stands only by its corner.
+    texts.push(
+        r#"{ "drystone": 1, "friction": 0.6, "ground": [
+                { "polygon": [[-3, -1], [3.2, -1], [3.2, 0], [-3, 0]] },
+                { "polygon": [[2.2, 0], [3.2, 0], [3.2, 6], [2.2, 6]] }],
+            "blocks": [{ "polygon": [[0, 0], [0.12, 0], [2.2, 4.5], [2.1, 4.55]], "weight": 100 }] }"#
+            .to_owned(),
+    );
     // A beam that falls under an axle at its end.
     texts.push(
         r#"{ "drystone": 1, "ground": [{ "polygon": [[0, -1], [1, -1], [1, 0], [0, 0]] }],

@@ -23,7 +23,7 @@ fn everything_but_version_and_blocks_has_a_default() {
     );
     assert_eq!(scene.title(), "");
     assert_eq!(scene.gravity(), Vector::new(0.0, -9.81));
-    assert_eq!((scene.kernel(), scene.corner_contacts(), scene.exact()), (0.0, false, false));
+    assert_eq!((scene.kernel(), scene.corner_contacts().on_edges(), scene.exact()), (0.0, false, false));
     assert!(scene.lattice().is_none() && scene.robots().is_empty() && scene.loads().is_empty());
     let block = &scene.blocks()[0];
     assert_eq!((block.id.as_str(), block.body.friction, block.body.fill), ("1", 0.7, None));

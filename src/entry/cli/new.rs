@@ -1,5 +1,4 @@
-//! `drystone new`: writes an example, or an arch, wall, tower, doorway or lattice with given dimensions, as a scene to
-//! start from.
+//! `drystone new`: writes an example, or a structure with given dimensions, as a scene to start from.
 
 use std::path::PathBuf;
 
@@ -10,9 +9,9 @@ use crate::entry::cli::destination;
 use crate::entry::cli::error::Ended;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::terminal::Terminal;
-use crate::sources::starter::{Arch, Doorway, LatticePile, Tower, Wall};
+use crate::sources::starter::{Arch, Doorway, Incline, Ladder, LatticePile, Tower, Wall};
 
-/// Write a scene to start from: a small example, or an arch, wall, tower, doorway or lattice with your dimensions
+/// Write a scene to start from: a small example, or a structure with your dimensions
 #[derive(Debug, Args)]
 pub(crate) struct New {
     #[command(subcommand)]
@@ -113,6 +112,37 @@ enum Structure {
         #[command(flatten)]
         friction: Friction,
     },
+    /// A ladder that leans at a wall
+    Ladder {
+        /// Length from the floor to the wall in metres
+        #[arg(long, value_name = "M", default_value = "4", value_parser = length)]
+        length: f64,
+        /// Thickness in metres
+        #[arg(long, value_name = "M", default_value = "0.06", value_parser = length)]
+        thickness: f64,
+        /// Angle between the ladder and the floor in degrees
+        #[arg(long, value_name = "DEG", default_value = "65", value_parser = |typed: &str| angle(typed, 5.0))]
+        angle: f64,
+        /// Friction coefficient at the wall
+        #[arg(long, value_name = "MU", default_value = "0", value_parser = at_least_zero)]
+        wall_friction: f64,
+        #[command(flatten)]
+        friction: Friction,
+    },
+    /// A block on an inclined plane
+    Incline {
+        /// Angle of the plane to the horizontal in degrees
+        #[arg(long, value_name = "DEG", default_value = "20", value_parser = |typed: &str| angle(typed, 0.0))]
+        angle: f64,
+        /// Width of the block along the plane in metres
+        #[arg(long, value_name = "M", default_value = "1", value_parser = length)]
+        width: f64,
+        /// Height of the block in metres
+        #[arg(long, value_name = "M", default_value = "1", value_parser = length)]
+        height: f64,
+        #[command(flatten)]
+        friction: Friction,
+    },
     /// A pile of triangles on the triangular lattice
     Lattice {
         /// How many rows
@@ -137,6 +167,13 @@ fn length(typed: &str) -> Result<f64, String> {
     }
 }
 
+fn angle(typed: &str, least: f64) -> Result<f64, String> {
+    match typed.parse::<f64>() {
+        Ok(degrees) if (least..=85.0).contains(&degrees) => Ok(degrees),
+        _ => Err(format!("it must be an angle from {least} to 85 degrees")),
+    }
+}
+
 fn at_least_zero(typed: &str) -> Result<f64, String> {
     match typed.parse::<f64>() {
         Ok(number) if (0.0..=1e6).contains(&number) => Ok(number),
@@ -158,6 +195,12 @@ impl Structure {
             }
             Structure::Doorway { courses, width, height, jamb, lintel, friction: Friction { friction } } => {
                 Doorway { courses, width, height, jamb, lintel, friction }.scene()
+            }
+            Structure::Ladder { length, thickness, angle, wall_friction, friction: Friction { friction } } => {
+                Ladder { length, thickness, angle, friction, wall_friction }.scene()
+            }
+            Structure::Incline { angle, width, height, friction: Friction { friction } } => {
+                Incline { angle, width, height, friction }.scene()
             }
             Structure::Lattice { rows, side, friction: Friction { friction } } => {
                 LatticePile { rows, side, friction }.scene()

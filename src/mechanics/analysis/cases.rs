@@ -128,7 +128,7 @@ impl Analysis {
             // If nothing was decided before the deadline, nothing is decided in the other cases either.
             let is_undecided = |found: &Analysis| found.frames.iter().all(|f| f.verdict == Verdict::Undecided);
             if !(options.is_late() && latest.as_ref().is_some_and(is_undecided)) {
-                latest = Some(Analysis::with(in_case, &alone));
+                latest = Some(Analysis::decide(in_case.into(), &alone));
             }
             let Some(found) = &mut latest else { continue };
             if k == 0 {
@@ -235,7 +235,6 @@ impl Analysis {
     }
 
     /// Returns the scene as its author wrote it, with its load cases.
-    #[cfg(any(feature = "python", feature = "wasm"))]
     pub(crate) fn given(&self) -> &Arc<Scene> {
         self.cases.as_ref().map_or(&self.scene, |cases| &cases.given)
     }

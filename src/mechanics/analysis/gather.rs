@@ -40,6 +40,7 @@ pub(super) fn unloaded_frame(context: &FrameContext, assembly: &Assembly, effect
         reach: None,
         vehicle: None,
         under_vehicle: None,
+        corners_decide: false,
         alone: None,
         capacity: None,
         only_by_wedging: None,

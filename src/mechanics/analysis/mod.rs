@@ -29,6 +29,7 @@ mod thrust_states;
 mod movement;
 mod answers;
 mod condition;
+mod corners;
 mod reach;
 mod vehicle;
 mod sensitivity;
@@ -182,6 +183,10 @@ pub struct FrameAnalysis {
     /// Blocks that no adhesion at the application points could hold: they are connected to neither ground nor a
     /// robot, or no connection can resist their moment.
     pub unsupported: Vec<BlockId>,
+    /// Whether the verdict would be the other one if corners that touch carried force, or if they did not: a frame without
+    /// `corner_contacts` that falls would stand, or one with them that stands would fall. Not computed if `options` request only
+    /// the verdict, or for scenes with more than 1000 blocks.
+    pub corners_decide: bool,
     /// How the blocks move if the frame falls; the fastest point has speed 1.
     pub mechanism: Vec<Motion>,
     /// How far the frame is from its limit of stability, if requested.
@@ -275,7 +280,13 @@ impl Analysis {
 
     /// Analyses every frame of a scene. `options` request additional results, such as margins.
     pub fn with(scene: impl Into<Arc<Scene>>, options: &Options) -> Analysis {
-        let scene = scene.into();
+        let mut analysis = Analysis::decide(scene.into(), options);
+        corners::add_corners(&mut analysis, options);
+        analysis
+    }
+
+    /// The same, but does not ask whether corners decide.
+    fn decide(scene: Arc<Scene>, options: &Options) -> Analysis {
         if !scene.cases.is_empty() {
             return Analysis::of_cases(scene, options);
         }

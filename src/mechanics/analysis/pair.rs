@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{Analysis, Contact, Failure, FrameAnalysis};
 use crate::geometry::Polygon;
-use crate::mechanics::scene::{Block, BlockId, BodyId, Frame, Load, RobotId, Scene};
+use crate::mechanics::scene::{Block, BlockId, BodyId, CornerContacts, Frame, Load, RobotId, Scene};
 
 /// Numbers that differ by at most this fraction are equal. For corners, the fraction is relative to the size of the
 /// outline.
@@ -129,8 +129,11 @@ fn differences(first: &Scene, second: &Scene) -> Vec<String> {
         _ => {}
     }
     if first.corner_contacts != second.corner_contacts {
-        let how = if second.corner_contacts { "with" } else { "without" };
-        words.push(format!("{how} corner contacts"));
+        words.push(match second.corner_contacts {
+            CornerContacts::At(_) => "corner contacts on edges".to_owned(),
+            CornerContacts::All(true) => "with corner contacts".to_owned(),
+            CornerContacts::All(false) => "without corner contacts".to_owned(),
+        });
     }
     words
 }

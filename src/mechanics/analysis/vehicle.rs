@@ -133,7 +133,7 @@ pub(super) fn decide_under_vehicle(
             }
             let loaded = Arc::new(with_axle_loads(whole, vehicle, &positions[own]));
             let alone = Scene { vehicle: None, frames: vec![frame.clone()], ..Scene::clone(&loaded) };
-            let verdict = Analysis::with(alone.clone(), &options.only_verdict()).verdict();
+            let verdict = Analysis::decide(alone.clone().into(), &options.only_verdict()).verdict();
             if verdict > worst.as_ref().map_or(Verdict::Stable, |(worst, ..)| *worst) {
                 worst = Some((verdict, own, loaded, alone));
             }
@@ -143,7 +143,7 @@ pub(super) fn decide_under_vehicle(
         }
         if let Some((_, own, loaded, alone)) = worst {
             let under = UnderVehicle { position: influence.is_some().then_some(own), alone: found.verdict };
-            let mut results = Analysis::with(alone, options).frames;
+            let mut results = Analysis::decide(alone.into(), options).frames;
             if let Some(results) = results.pop() {
                 let results = Arc::unwrap_or_clone(results);
                 let there = Condition { case: None, position: under.position };
@@ -169,7 +169,7 @@ pub(super) fn decide_under_vehicle(
                     margin_kinds: options.wanted_margins().unwrap_or_default(),
                     ..*options
                 };
-                let there = Analysis::with(alone, &asked).frames.pop().map(Arc::unwrap_or_clone);
+                let there = Analysis::decide(alone.into(), &asked).frames.pop().map(Arc::unwrap_or_clone);
                 if let Some(mut there) = there {
                     there.removable.clone_from(&found.removable);
                     let mut answers = Answers::of(found, Condition::default());

@@ -28,6 +28,8 @@ use serde::{Deserialize, Serialize};
 
 pub use check::{Checked, FrameCheck, LimitCheck};
 
+use crate::mechanics::scene::CornerContacts;
+
 /// A point or a vector: x to the right and y up, in metres, newtons or without unit.
 pub type Pair = [f64; 2];
 
@@ -51,7 +53,7 @@ pub struct Certificate {
     pub distance: f64,
     /// Whether a corner that touches carries force. If not, two outlines may touch along less than `shortest` without a
     /// contact.
-    pub corners_carry: bool,
+    pub corners_carry: CornerContacts,
     /// The length in metres up to which a common edge counts as a corner.
     pub shortest: f64,
     /// Whether the contacts are given by the scene. Their position is then not checked against the outlines.

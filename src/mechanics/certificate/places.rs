@@ -93,7 +93,8 @@ impl Certificate {
     ///
     /// Two outlines that come close do so at a corner of one of them. So each corner that lies at another outline must
     /// lie at a contact of these bodies. Where corners carry no force, one corner alone needs no contact, but two on the
-    /// same edges that are farther apart than the shortest joint do.
+    /// same edges that are farther apart than the shortest joint do. Where corners carry force only on edges, one corner
+    /// that lies at another needs none.
     fn missing_contacts(&self, frame: &FrameForm) -> Vec<String> {
         let mut faults = Vec::new();
         let allowed = square(&Rational::exact(self.distance));
@@ -141,7 +142,12 @@ impl Certificate {
                         let bare: Vec<&Vector> = near.map(|(at, ..)| at).filter(|at| !is_covered(at)).collect();
                         let apart = bare.iter().flat_map(|p| bare.iter().map(|q| square_length(&p.minus(q)))).max();
                         let is_corner = apart.as_ref().is_none_or(|apart| *apart <= shortest);
-                        if !is_corner || (self.corners_carry && !bare.is_empty()) {
+                        let is_tip = |at: &Vector| {
+                            let is_near = |end: &Vector| square_length(&at.minus(end)) <= covered;
+                            [[a, b], [c, d]].iter().all(|ends| ends.iter().any(|end| is_near(end)))
+                        };
+                        let carries = |at: &&&Vector| self.corners_carry.on_corners() || !is_tip(at);
+                        if !is_corner || self.corners_carry.on_edges() && bare.iter().any(|at| carries(&at)) {
                             let names = bodies.map(|body| body.id.as_str()).join(" and ");
                             faults.push(format!("{names} touch without a contact"));
                         }
@@ -183,7 +189,7 @@ impl Certificate {
                 let along = b.minus(a);
                 let (length, place) = (square_length(&along), along.dot(&centre.minus(a)));
                 let is_end = place < Rational::ZERO || place > length;
-                if (is_end && !self.corners_carry) || distance_squared(&centre, a, b) > reach {
+                if (is_end && !self.corners_carry.on_edges()) || distance_squared(&centre, a, b) > reach {
                     return false;
                 }
                 let share = if place < Rational::ZERO { Rational::ZERO } else { place.min(length.clone()) } / length;

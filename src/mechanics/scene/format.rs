@@ -101,8 +101,9 @@ entry! {
         /// bodies may overlap by up to this depth. Default: estimated from how the coordinates are written and how
         /// large the scene is.
         contact_tolerance: Option<f64> [range(min = 0.0)],
-        /// Whether a corner that touches an edge or another corner carries force. Default false.
-        corner_contacts: Option<bool> [extend("default" = false)],
+        /// Which corners that touch carry force: none (`false`), all (`true`), or `"on_edges"`: those that touch an edge, but
+        /// not those that touch only another corner. Default false.
+        corner_contacts: Option<CornerContacts> [extend("default" = false)],
         /// Steps of the assembly, one frame each. Without steps, there is one frame: all blocks are placed, and each
         /// robot holds the block in its key `holds`.
         steps: Vec<StepEntry>,
@@ -311,6 +312,64 @@ word! {
         Triangular = "triangular",
         /// Squares: lattice point (x, y) is at side·(x, y).
         Square = "square",
+    }
+}
+
+/// Which corners that touch another body carry force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(untagged)]
+pub enum CornerContacts {
+    /// All of them, or none.
+    All(bool),
+    /// Those that touch what the word names.
+    At(CornersAt),
+}
+
+word! {
+    /// What a corner must touch to carry force.
+    #[non_exhaustive]
+    pub enum CornersAt {
+        /// An edge or a circle. A corner that touches only another corner carries none.
+        Edges = "on_edges",
+    }
+}
+
+impl CornerContacts {
+    /// No corner carries force.
+    pub const NONE: CornerContacts = CornerContacts::All(false);
+    /// Corners that touch an edge carry force.
+    pub const ON_EDGES: CornerContacts = CornerContacts::At(CornersAt::Edges);
+    /// All corners that touch carry force.
+    pub const ALL: CornerContacts = CornerContacts::All(true);
+
+    /// True if a corner that touches an edge carries force.
+    pub fn on_edges(self) -> bool {
+        self != CornerContacts::NONE
+    }
+
+    /// True if a corner that touches only another corner carries force.
+    pub fn on_corners(self) -> bool {
+        self == CornerContacts::ALL
+    }
+}
+
+impl From<bool> for CornerContacts {
+    fn from(all: bool) -> CornerContacts {
+        CornerContacts::All(all)
+    }
+}
+
+impl Read for CornerContacts {
+    fn read<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<CornerContacts> {
+        match &node.kind {
+            NodeKind::Flag(all) => Some(CornerContacts::All(*all)),
+            NodeKind::Text(_) => CornersAt::read(r, node, at).map(CornerContacts::At),
+            _ => {
+                r.wrong(node, at, Expected::Other("true, false or \"on_edges\""));
+                None
+            }
+        }
     }
 }
 

@@ -31,6 +31,7 @@ pub use body::{
     Robot, RobotId, Spread,
 };
 pub use collision::Penetration;
+pub(crate) use format::CornerContacts;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use format::Setting;
 #[cfg(feature = "schema")]
@@ -109,8 +110,8 @@ pub struct Scene {
     pub(crate) friction_pairs: Vec<([usize; 2], f64)>,
     /// The contacts that the file lists. If the list is not empty, contacts are not computed from the outlines.
     pub(crate) contacts: Vec<ListedContact>,
-    /// Whether a corner that touches an edge or another corner carries force. Also true if the file lists its contacts.
-    pub(crate) corner_contacts: bool,
+    /// Which corners that touch carry force. All if the file lists its contacts.
+    pub(crate) corner_contacts: CornerContacts,
     /// The frames, one for each step; at least one.
     pub(crate) frames: Vec<Frame>,
     /// Notes on input that is allowed but probably not intended, in the order in which they were found.
@@ -263,9 +264,8 @@ impl Scene {
         !self.contacts.is_empty()
     }
 
-    /// True if a corner that touches an edge or another corner carries force. Also true if the scene lists its
-    /// contacts.
-    pub fn corner_contacts(&self) -> bool {
+    /// Returns which corners that touch another body carry force: all if the scene lists its contacts.
+    pub fn corner_contacts(&self) -> CornerContacts {
         self.corner_contacts
     }
 

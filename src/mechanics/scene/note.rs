@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use super::finding::Finding;
-use super::format::{HoldEntry, Pair, SceneFile};
+use super::format::{HoldEntry, Pair, PressureEntry, SceneFile};
 use super::problem::{Wording, codes, message as say};
 use super::{BlockId, Body, BodyId, RobotId, Scene};
 use crate::geometry::{Bounds, Point};
@@ -17,6 +17,12 @@ pub(super) const MAX_PLAUSIBLE_FRICTION: f64 = 2.0;
 
 /// The diagonals in metres that a typical block may have. Others come from a missing or a wrong unit.
 const PLAUSIBLE_SIZES: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
+
+/// The densities that a stone, a brick or a metal may have, kg/m³. Others are probably in another unit.
+const PLAUSIBLE_DENSITIES: std::ops::RangeInclusive<f64> = 300.0..=20_000.0;
+
+/// The unit weights that water and earth may have, N/m³: under water 8 000, at most three times that of water.
+const PLAUSIBLE_UNIT_WEIGHTS: std::ops::RangeInclusive<f64> = 3_000.0..=40_000.0;
 
 codes! {
     /// The kind of a note. Later versions may add codes, but the word of a code never changes.
@@ -32,6 +38,8 @@ codes! {
     NoBlocks "no_blocks" "a scene without blocks",
     NoWeight "no_weight" "blocks that all weigh nothing, without loads",
     ImplausibleSize "implausible_size" "blocks whose typical size is above 100 m or below 0.1 mm",
+    ImplausibleDensity "implausible_density" "a density below 300 or above 20 000 kg/m³",
+    ImplausibleUnitWeight "implausible_unit_weight" "a unit weight of water or earth below 3 000 or above 40 000 N/m³",
     BelowGround "below_ground" "blocks that all lie below the ground, or all beside it and above nothing",
     SetUnused "set_unused" "a value of `--set` that changes nothing",
     AngleRadians "angle_radians" "an angle that is probably a multiple of 15° given in radians, with three decimals or more",
@@ -122,6 +130,8 @@ pub(super) fn of<'s>(file: &SceneFile, scene: &Scene, source: impl Fn() -> Optio
     notes.weights(file);
     notes.emptiness();
     notes.sizes();
+    notes.densities(file);
+    notes.unit_weights(file);
     notes.heights();
     if scene.ground.is_empty() && !file.blocks.is_empty() {
         let at = Trail::Top;
@@ -296,6 +306,43 @@ impl Notes<'_> {
         if !PLAUSIBLE_SIZES.contains(&typical) {
             let top = Trail::Top;
             self.add(NoteCode::ImplausibleSize, &top.key("blocks"), say::implausible_size(typical));
+        }
+    }
+
+    /// Adds a note on the first density that no material has. Without weight, 0 is meant.
+    fn densities(&mut self, file: &SceneFile) {
+        let is_odd = |density: Option<f64>| density.filter(|own| *own != 0.0 && !PLAUSIBLE_DENSITIES.contains(own));
+        let top = Trail::Top;
+        let (materials, blocks) = (top.key("materials"), top.key("blocks"));
+        let add = |notes: &mut Notes<'_>, at: &Trail<'_>, density| {
+            notes.add(NoteCode::ImplausibleDensity, &at.key("density"), say::implausible_density(density));
+        };
+        if let Some(density) = is_odd(file.density) {
+            add(self, &top, density);
+        } else if let Some((name, density)) =
+            file.materials.0.iter().find_map(|(name, own)| Some((name, is_odd(own.density)?)))
+        {
+            add(self, &materials.key(name), density);
+        } else if let Some((number, density)) =
+            file.blocks.iter().enumerate().find_map(|(number, own)| Some((number, is_odd(own.density)?)))
+        {
+            add(self, &blocks.index(number), density);
+        }
+    }
+
+    /// Adds a note on the first unit weight that neither water nor earth has.
+    fn unit_weights(&mut self, file: &SceneFile) {
+        let unit = self.scene.units.force();
+        let loads = Trail::Top.key("loads");
+        for (number, load) in file.loads.iter().enumerate() {
+            let Some(PressureEntry::ByDepth(depth)) = &load.pressure else { continue };
+            let newtons = depth.unit_weight * unit.size;
+            if newtons != 0.0 && !PLAUSIBLE_UNIT_WEIGHTS.contains(&newtons) {
+                let at = loads.index(number);
+                let wording = say::implausible_unit_weight(depth.unit_weight, newtons, &unit.symbol().to_string());
+                self.add(NoteCode::ImplausibleUnitWeight, &at.key("pressure").key("unit_weight"), wording);
+                return;
+            }
         }
     }
 

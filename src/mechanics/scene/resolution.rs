@@ -14,7 +14,7 @@ pub use self::sketch::SketchedBody;
 pub(super) use self::sketch::sketch;
 use super::collision::{self, Comparison, Penetration};
 use super::finding::{Finding, Findings, UnreadParts};
-use super::format::{self, Pair, SceneFile, UnitsEntry};
+use super::format::{self, CornerContacts, Pair, SceneFile, UnitsEntry};
 use super::name::{self, Names};
 use super::note::{Lines, NoteCode};
 use super::number::{SMALLEST_EXTENT, at_least_zero, is_amount, is_sane};
@@ -196,7 +196,10 @@ impl<'f> Resolution<'f> {
             materials: materials.map(|m| Material { name: m.0.clone() }).collect(),
             friction_pairs,
             // A listed contact is a single point, so it transmits force in the same way as a corner contact.
-            corner_contacts: self.file.corner_contacts.unwrap_or(false) || !contacts.is_empty(),
+            corner_contacts: match self.file.corner_contacts {
+                _ if !contacts.is_empty() => CornerContacts::ALL,
+                given => given.unwrap_or(CornerContacts::NONE),
+            },
             contacts,
             frames,
             notes: Vec::new(),
@@ -279,7 +282,7 @@ impl<'f> Resolution<'f> {
             return Vec::new();
         }
         let bodies: Vec<_> = grounds.chain(blocks).collect();
-        if self.file.corner_contacts == Some(true) && self.file.contacts.is_empty() {
+        if self.file.corner_contacts.is_some_and(CornerContacts::on_edges) && self.file.contacts.is_empty() {
             collision::check_crowding(findings, &bodies, frames, closeness.tolerance().gap);
         }
         let comparison = Comparison {

@@ -301,7 +301,7 @@ impl Session {
     fn is_incremental(&self) -> bool {
         // Pressures between two points act on edges that touch no other body, so every block may change them.
         let changes_pressures = self.file.loads.iter().any(|load| !load.between.is_empty());
-        self.scene.exact && !self.scene.corner_contacts && !changes_pressures
+        self.scene.exact && !self.scene.corner_contacts.on_edges() && !changes_pressures
     }
 
     /// Adds a block that consists of lattice cells, without reading the whole scene again. Returns false, and adds

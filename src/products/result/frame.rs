@@ -46,6 +46,7 @@ pub(super) fn frame<'a>(
         robots: Json::list(frame.robots.iter().map(|held| robot(scene, held))),
         failures: Json::list(frame.failures.iter().map(|missing| failure(scene, missing))),
         unsupported: Json::list(frame.unsupported.iter().map(|id| &scene.blocks[id.0].id)).unless_empty(),
+        corners_decide: frame.corners_decide.then_some(true),
         mechanism: motions(scene, &frame.mechanism),
         margins: frame.margins.as_ref().map(|margins| margins_of(scene, margins)),
         sensitivity: frame.sensitivity.as_ref().map(|found| sensitivity(scene, frame, found)),

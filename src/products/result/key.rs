@@ -338,6 +338,7 @@ pub static KEYS: &[Key] = &[
             key("amount", Number, "size of the missing force or torque; for a force of a robot \\|Fx\\| + \\|Fy\\|").unit("N or N·m"),
         ]),
         key("unsupported", NameList, "blocks that would fall even if all contacts and grips could stick").when("if there are unsupported blocks"),
+        key("corners_decide", Flag, "whether the verdict would be the other one if corners that touch carried force, or if they did not").when("only if `true`"),
         key("mechanism", Motions, "velocities of the blocks as the collapse begins; empty if the frame stands"),
         key("margins", Object, "how far the frame is from collapse: the extreme values at which it stands; a margin is null if the frame stands at no value, if the margin does not exist in this frame, or if no value was confirmed (a notice then says so)").when(IF_MARGINS_REQUESTED).of(&MARGINS),
         key("sensitivity", Object, "exact derivatives of the ends of one margin's interval with respect to vertices, weights, friction and loads, for unchanged contacts. At a kink, where a derivative differs between the possible forces and mechanisms, it is `at_kink`").when("with `--sensitivity`").of(&[

@@ -6,7 +6,9 @@ use crate::mechanics::analysis::{
     Contact, EffectName, EffectReport, Failure, FrameAnalysis, Motion as Moved, Proof, Resultant as Sum, RobotForce,
     SolveReport, UndecidedReason, Verdict,
 };
-use crate::mechanics::scene::{Block, BlockId, Body, BodyId, Frame as Step, Healed, Limits, Robot as Arm, RobotId};
+use crate::mechanics::scene::{
+    Block, BlockId, Body, BodyId, CornerContacts, Frame as Step, Healed, Limits, Robot as Arm, RobotId,
+};
 use crate::mechanics::statics::interface::ContactKind;
 
 fn scene() -> Scene {
@@ -59,7 +61,7 @@ fn scene() -> Scene {
         materials: vec![],
         friction_pairs: vec![],
         contacts: Vec::new(),
-        corner_contacts: false,
+        corner_contacts: CornerContacts::NONE,
         frames: vec![Step {
             title: "Only".into(),
             placed: vec![BlockId(0)],
@@ -121,6 +123,7 @@ fn frame() -> FrameAnalysis {
         exact: None,
         cases: None,
         under_vehicle: None,
+        corners_decide: false,
         alone: None,
         wedged: None,
         effects: vec![EffectReport { effect: EffectName::Friction, simulated: true, why: "two".into(), unknowns: 8 }],

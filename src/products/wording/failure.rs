@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::number::{NO_BREAK, listed, place, quantity};
 use crate::mechanics::analysis::{Failure, FrameAnalysis};
-use crate::mechanics::scene::{BlockId, BodyId, RobotId, Scene};
+use crate::mechanics::scene::{BlockId, BodyId, CornerContacts, RobotId, Scene};
 use crate::mechanics::statics::interface::{ContactKind, Interfaces};
 use crate::text::first_of;
 
@@ -154,14 +154,14 @@ const MAX_BLOCKS_WITH_CORNERS: usize = 1000;
 /// Returns `None` if there is no such corner, or if corners carry force in this scene.
 fn touching_corner(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
     let unsupported = &frame_analysis.unsupported;
-    if scene.corner_contacts || unsupported.is_empty() || scene.blocks.len() > MAX_BLOCKS_WITH_CORNERS {
+    if scene.corner_contacts.on_edges() || unsupported.is_empty() || scene.blocks.len() > MAX_BLOCKS_WITH_CORNERS {
         return None;
     }
     let is_unsupported = |id: &BodyId| matches!(id, BodyId::Block(block) if unsupported.contains(block));
     let placed = frame_analysis.contacts.iter().flat_map(|contact| contact.interface.bodies);
     let placed: BTreeSet<BodyId> = placed.chain(unsupported.iter().copied().map(BodyId::Block)).collect();
     let is_placed = |id: &BodyId| matches!(id, BodyId::Ground(_)) || placed.contains(id);
-    let with_corners = Scene { corner_contacts: true, ..scene.clone() };
+    let with_corners = Scene { corner_contacts: CornerContacts::ALL, ..scene.clone() };
     let corner = Interfaces::new(&with_corners).all.into_iter().find(|interface| {
         interface.kind == ContactKind::Corner
             && !frame_analysis.contacts.iter().any(|contact| contact.interface == *interface)

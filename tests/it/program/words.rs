@@ -115,6 +115,8 @@ fn help_describes_commands_limits_and_exit_codes() {
         "markdown",
         "mdbook",
         "new arch",
+        "new ladder",
+        "new incline",
         "plan",
         "report",
         "snapshot",

@@ -419,6 +419,26 @@ pub(in crate::mechanics::scene) fn implausible_size(metres: f64) -> Wording {
     )
 }
 
+pub(in crate::mechanics::scene) fn implausible_density(density: f64) -> Wording {
+    note(
+        format!("the density {} kg/m³ is probably a mistake", digits(density)),
+        "densities are in kg/m³, whatever the units of the scene: stone has 1800 to 3000, brick 1600 to 2000, wood 400 to 900",
+    )
+}
+
+pub(in crate::mechanics::scene) fn implausible_unit_weight(given: f64, newtons: f64, unit: &str) -> Wording {
+    let factor = newtons / given;
+    note(
+        format!("the unit weight {} {unit}/m³ is probably a mistake", digits(given)),
+        format!(
+            "give the weight of a cubic metre in {unit}: water has {} {unit}/m³ (9810 N/m³, 62.4 lbf/ft³), earth {} to {}",
+            digits((9810.0 / factor * 1e4).round() / 1e4),
+            digits((16_000.0 / factor * 1e4).round() / 1e4),
+            digits((22_000.0 / factor * 1e4).round() / 1e4),
+        ),
+    )
+}
+
 pub(in crate::mechanics::scene) fn below_ground() -> Wording {
     note(
         "no block lies above the ground".into(),

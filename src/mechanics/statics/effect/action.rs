@@ -276,7 +276,7 @@ impl Effect for CornerContacts {
         let mut bodies = context.interfaces.iter().flat_map(|i| i.bodies);
         let circles = bodies.any(|body| context.scene.body(body).circle.is_some());
         match count {
-            0 if !context.scene.corner_contacts => {
+            0 if !context.scene.corner_contacts.on_edges() => {
                 Applicability::skipped("not requested; corner contacts are unreliable")
             }
             0 => Applicability::skipped("no corner touches another body"),

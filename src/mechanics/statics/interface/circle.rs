@@ -99,7 +99,8 @@ fn around(circle: Circle) -> Aabb {
 fn add(scene: &Scene, found: &mut Interfaces, pair: [BodyId; 2], reach: f64, circle: Circle, parts: &[&Part]) {
     let Some(bodies) = ordered(pair[0], pair[1]) else { return };
     let tolerance = scene.tolerance_between(pair[0], pair[1]).gap;
-    let corners = parts.iter().filter(|_| scene.corner_contacts).filter_map(|part| at_corner(circle, part, tolerance));
+    let corners =
+        parts.iter().filter(|_| scene.corner_contacts.on_edges()).filter_map(|part| at_corner(circle, part, tolerance));
     let touches = parts.iter().filter_map(|part| at_edge_or_circle(circle, part, tolerance)).chain(corners);
     let (touching, mut apart): (Vec<Touch>, Vec<Touch>) =
         touches.filter(|t| t.gap >= -tolerance && t.gap <= reach).partition(|t| t.gap <= tolerance);

@@ -1,8 +1,8 @@
 //! Finds corner contacts: a corner touches an edge or another corner, and the two bodies have no edge interface there.
 //!
-//! Vallat (2023) omits corner contacts as unreliable; a scene requests them with `"corner_contacts": true`. If a corner
-//! touches an edge, the normal is that of the edge. If two corners touch, the normal has the direction of the
-//! difference of their inward unit bisectors.
+//! Vallat (2023) omits corner contacts as unreliable; a scene requests them with `"corner_contacts": true`, or with
+//! `"on_edges"` only those of a corner with an edge. If a corner touches an edge, the normal is that of the edge. If two
+//! corners touch, the normal has the direction of the difference of their inward unit bisectors.
 
 use std::collections::BTreeMap;
 
@@ -77,7 +77,7 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
                 continue;
             };
             let tolerance = tolerance_between(pair[0], pair[1]);
-            let Some(into_tip) = normal(tip, other, tolerance) else {
+            let Some(into_tip) = normal(tip, other, tolerance, scene.corner_contacts.on_corners()) else {
                 continue;
             };
             let ends = ends_of_pair.entry(pair).or_default();
@@ -110,12 +110,13 @@ fn corner_sides(scene: &Scene) -> Vec<CornerSide> {
 }
 
 /// Returns the unit normal that points into the body of `tip`, if `tip` touches the corner of `other` or the interior
-/// of the side that begins there. `None` if they do not touch, or if two touching corners have no defined normal.
-fn normal(tip: &Tip, other: &CornerSide, tolerance: f64) -> Option<Vector> {
+/// of the side that begins there. `None` if they do not touch, or if two touching corners have no defined normal or carry
+/// no force.
+fn normal(tip: &Tip, other: &CornerSide, tolerance: f64, do_tips_carry: bool) -> Option<Vector> {
     if (other.side.from - tip.at).norm() <= tolerance {
         let between = tip.inward() - other.tip.inward();
         // Two corners that point in the same direction have no normal.
-        return (between.norm() > PARALLEL_TOL).then(|| between.normalize());
+        return (do_tips_carry && between.norm() > PARALLEL_TOL).then(|| between.normalize());
     }
     let along = other.side.vector();
     let length = along.norm();

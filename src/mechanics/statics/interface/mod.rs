@@ -159,7 +159,7 @@ impl Interfaces {
             _ => edge::find(scene),
         };
         circle::find(scene, &mut found);
-        if scene.corner_contacts {
+        if scene.corner_contacts.on_edges() {
             let corners = corner::find(scene, &found.all);
             found.all.extend(corners);
         }

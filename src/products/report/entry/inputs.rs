@@ -4,7 +4,7 @@ use super::Grid;
 use super::unit::Units;
 use crate::geometry::{Vector, range_of};
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::mechanics::scene::{BlockId, Limits, Load, Scene};
+use crate::mechanics::scene::{BlockId, CornerContacts, Limits, Load, Scene};
 use crate::products::wording::number::{amount, counted, digits, place, quantity, tenths};
 use crate::text::{first_of, line};
 
@@ -228,8 +228,10 @@ pub(super) fn facts(scene: &Scene, number: usize) -> Grid {
         kernel => format!("{}: forces stay in the middle {} of each joint", digits(kernel), tenths(1.0 - kernel)),
     };
     add("safety kernel", kernel);
-    if scene.corner_contacts {
-        add("corners", "corners that touch carry force".to_owned());
+    match scene.corner_contacts {
+        CornerContacts::All(false) => {}
+        CornerContacts::All(true) => add("corners", "corners that touch carry force".to_owned()),
+        CornerContacts::At(_) => add("corners", "corners that touch an edge carry force".to_owned()),
     }
     if scene.healed.corners > 0 {
         let moved = scene.tolerance_words().unwrap_or_default();

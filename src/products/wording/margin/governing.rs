@@ -33,7 +33,11 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
     let mut governing = match found.verdict {
         Verdict::Undecided => Governing::default(),
         Verdict::Unstable => Governing {
-            words: lack(scene, found).into_iter().collect(),
+            words: lack(scene, found)
+                .filter(|_| !found.corners_decide)
+                .or_else(|| corners(found))
+                .into_iter()
+                .collect(),
             mechanism: &found.mechanism,
             ..Governing::default()
         },
@@ -54,6 +58,11 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
     }
     governing.words.extend(question::worst_case(found));
     governing
+}
+
+/// Says that a frame that falls would stand if corners carried force.
+fn corners(found: &FrameAnalysis) -> Option<String> {
+    found.corners_decide.then(|| "stands if corners carry".to_owned())
 }
 
 /// Returns the same words as one text, for tables: `carries 2.81 × its load · falls at 19° of tilt`.
@@ -140,7 +149,8 @@ fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> 
             let (least, most) = friction(found)?;
             let needed = three_up(needed);
             let words = if least < most {
-                format!("needs friction {needed} of {}–{}, the same at all joints", digits(least), digits(most))
+                let smooth = if least == 0.0 { ", smooth ones too" } else { "" };
+                format!("needs friction {needed} of {}–{}, the same at all joints{smooth}", digits(least), digits(most))
             } else {
                 format!("needs friction {needed} of {}", digits(least))
             };
@@ -199,7 +209,11 @@ fn friction_lack(frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<
         Interval::Undecided => None,
         Interval::Between { low, .. } => {
             let low = confirmed(low).filter(|low| *low > least)?;
-            let everywhere = if least < most { " at every joint" } else { "" };
+            let everywhere = match least < most {
+                true if least == 0.0 => " at every joint, smooth ones too",
+                true => " at every joint",
+                false => "",
+            };
             Some(format!("would need friction {}{everywhere}", three_up(low)))
         }
     }

@@ -90,7 +90,15 @@ impl StatedMargin<'_> {
     /// Describes the interval and the current value of the margin: `stands from 0.3 to 2.4; now 1`.
     pub fn sentence(&self) -> String {
         let governed = self.governed.as_ref().map(|names| format!("governed by {names}"));
-        [Some(self.stands()), self.present_words(), governed].into_iter().flatten().collect::<Vec<_>>().join("; ")
+        // One coefficient everywhere is another structure than one with different coefficients.
+        let stands = match self.present {
+            Some((low, high)) if self.kind == MarginKind::Friction && low < high => {
+                let smooth = if low == 0.0 { ", smooth ones too" } else { "" };
+                format!("{}, the same at all joints{smooth}", self.stands())
+            }
+            _ => self.stands(),
+        };
+        [Some(stands), self.present_words(), governed].into_iter().flatten().collect::<Vec<_>>().join("; ")
     }
 
     /// Writes a value of the parameter.

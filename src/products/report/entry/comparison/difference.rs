@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use super::Side;
 use crate::geometry::Point;
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::mechanics::scene::{Block, Limits, Scene, Unit};
+use crate::mechanics::scene::{Block, CornerContacts, Limits, Scene, Unit};
 use crate::products::report::entry::Grid;
 use crate::products::wording::failure::shortened;
 use crate::products::wording::number::{amount, digits, listed, place};
@@ -224,7 +224,11 @@ impl Settings {
 /// Returns the inputs of a frame, apart from its blocks, in the given units.
 fn given(scene: &Scene, number: usize, units: UnitsEntry) -> FrameInputs {
     let frame = &scene.frames[number];
-    let corners = if scene.corner_contacts { "carry force" } else { "carry none" };
+    let corners = match scene.corner_contacts {
+        CornerContacts::All(true) => "carry force",
+        CornerContacts::All(false) => "carry none",
+        CornerContacts::At(_) => "carry force on edges",
+    };
     let mut given: FrameInputs = vec![
         ("gravity".into(), vector(scene.gravity.x, scene.gravity.y, "m/s²"), None),
         ("safety kernel".into(), digits(scene.kernel), None),
