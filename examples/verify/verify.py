@@ -69,7 +69,7 @@ def corrected(frame, parts, given, residual):
             change(k, amount)
     values = []  # what must not be negative at the contacts, and the components of the grips
     for c, (n1, n2, t) in zip(frame["contacts"], threes(amounts)):
-        most = frame.get("friction", c["friction"]) * (n1 + n2)
+        most = frame.get("friction", c["friction"]) * frame.get("friction_factor", 1) * (n1 + n2)
         values += [n1, n2, most - t, most + t, -n2 if "normal" in c else 0]
     return values + amounts[3 * len(frame["contacts"]) :], [k for k, rest in residual.items() if any(rest)]
 
@@ -101,7 +101,7 @@ def falls(bodies, frame):
             motion[body] = plus(motion[body], change, 1)
     speeds = [speed(part) for part in parts]
     for k, (c, (n1, n2, t)) in enumerate(zip(frame["contacts"], threes(speeds))):
-        slack = min(n1, n2) - frame.get("friction", c["friction"]) * abs(t)
+        slack = min(n1, n2) - frame.get("friction", c["friction"]) * frame.get("friction_factor", 1) * abs(t)
         if slack < 0:
             yield f"contact {k} can resist by {float(-slack):.1e}"
     grips = list(zip(limits_of(frame), speeds[3 * len(frame["contacts"]) :]))
@@ -165,7 +165,7 @@ def form(file, frame):
     moved += (frame.get("force") or [])[:1]
     points = [(len({*map(tuple, c["points"])}), len(c["points"]), 2 - ("normal" in c)) for c in contacts]
     numbers = [file["distance"], file["shortest"], *(body["weight"] for body in bodies), frame.get("friction", 0)]
-    numbers += [c["friction"] for c in contacts] + [limit or 0 for limit in limits_of(frame)]
+    numbers += [frame.get("friction_factor", 0)] + [c["friction"] for c in contacts] + [limit or 0 for limit in limits_of(frame)]
     rules = {
         "the version": file["drystone_certificate"] == 1,
         "a body": all(body["is_fine"] for body in bodies),

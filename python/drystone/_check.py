@@ -36,8 +36,8 @@ def check(
 ) -> Result:
     """Analyses a scene and returns, for each frame, the verdict with its proof, the forces, and the failures.
 
-    ``margins`` is ``True`` for all margins, or one or several of "friction", "tilt", "horizontal_load", "kernel",
-    "load_factor" and "robots". ``wedging=True`` tests whether a frame stands only by wedging. ``placement=True``
+    ``margins`` is ``True`` for all margins, or one or several of "friction", "friction_factor", "tilt",
+    "horizontal_load", "kernel", "load_factor" and "robots". ``wedging=True`` tests whether a frame stands only by wedging. ``placement=True``
     computes how accurately the blocks must be placed; ``placed`` names the only blocks that are off their places.
     ``removable=True`` finds out for each block whether the rest stands without it, and how hard a robot must hold it or
     the rest. ``verdict_only=True`` leaves out all results that the verdict does not need. ``accuracy`` is "standard" or
@@ -50,7 +50,7 @@ def check(
     carry for all values in these ranges.
 
     ``sensitivity`` computes how one margin changes with every corner, weight, friction coefficient and load. The margin
-    is "load_factor", "tilt", "horizontal_load", "friction" or "kernel".
+    is "load_factor", "tilt", "horizontal_load", "friction_factor", "friction" or "kernel".
 
     ``reach``, such as ``"load_factor=2"``, ``"tilt=10"`` or ``"horizontal_load=0.2"``, finds the least single changes
     with which the margin reaches this value.

@@ -51,7 +51,7 @@ request! {
     /// Whether margins are computed, and which.
     #[derive(Clone, Debug)]
     pub(crate) struct MarginArgs(given) {
-        /// Compute how far each frame is from its limit: least friction, largest tilt, horizontal load, kernel and
+        /// Compute how far each frame is from its limit: least friction and factor on it, largest tilt, horizontal load, kernel and
         /// factor on the loads, least limits of robots; or only some of these, such as friction,tilt
         margins: Option<Vec<MarginKind>> = given.all_or_some("margins"),
             arg(long, value_parser = crate::text::typed_word::<MarginKind>(), value_name = "LIST",

@@ -46,8 +46,8 @@ pub(crate) struct SensitivityMargin(pub MarginKind);
 
 impl Word for SensitivityMargin {
     fn all() -> Vec<SensitivityMargin> {
-        use MarginKind::{Friction, HorizontalLoad, Kernel, LoadFactor, Tilt};
-        [LoadFactor, Tilt, HorizontalLoad, Friction, Kernel].map(SensitivityMargin).to_vec()
+        use MarginKind::{Friction, FrictionFactor, HorizontalLoad, Kernel, LoadFactor, Tilt};
+        [LoadFactor, Tilt, HorizontalLoad, FrictionFactor, Friction, Kernel].map(SensitivityMargin).to_vec()
     }
 
     fn word(self) -> &'static str {

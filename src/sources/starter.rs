@@ -201,10 +201,10 @@ impl Ladder {
         let (x, y) = (round(self.length * cos), round(self.length * sin));
         let across = [-round(self.thickness * sin), round(self.thickness * cos)];
         let outline = vec![[0.0, 0.0], [x, y], [round(x + across[0]), round(y + across[1])], across];
-        let (depth, side) = (round(0.1 * self.length), round(0.3 * self.length));
+        let depth = round(0.1 * self.length);
         let [mut floor, mut wall] = [
-            rectangle([-side, -depth], [round(x + depth), 0.0]),
-            rectangle([x, 0.0], [round(x + depth), round(y + side)]),
+            rectangle([-depth, -depth], [round(x + depth), 0.0]),
+            rectangle([x, 0.0], [round(x + depth), round(y + depth)]),
         ]
         .map(|polygon| GroundEntry { polygon: Some(polygon), ..GroundEntry::default() });
         floor.id = Some("floor".into());

@@ -192,3 +192,29 @@ fn margins_of_a_bridge_hold_with_its_vehicle_at_the_governing_position() {
     }
     assert!(found.notices.iter().any(|notice| notice.contains("not at the other")));
 }
+
+#[test]
+fn the_headline_of_a_scene_with_movements_states_the_first_one() {
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/questions/spreading-arch.json"));
+    let found =
+        Analysis::with(Scene::from_json(&text.expect("there")).expect("sound"), &Options::default().margins(true));
+    let page = drystone::figure::draw(&found, drystone::figure::Kind::Forces, &drystone::figure::Options::default());
+    let svg = drystone::output::svg::write(&page);
+    assert!(svg.contains("4 joints open by up to 1.36 mm if right moves by (0.01, 0) m (1 of 2 movements)"), "{svg}");
+}
+
+#[test]
+fn the_part_of_the_ground_that_carries_nothing_is_drawn_where_it_faces_the_structure() {
+    let shown = |x: f64| {
+        let file = json!({ "drystone": 1, "ground": [
+                { "polygon": [[-3, -1], [3, -1], [3, 0], [-3, 0]] },
+                { "polygon": [[x, 0], [x + 1.0, 0], [x + 1.0, 6], [x, 6]] }],
+            "blocks": [{ "polygon": [[0, 0], [2, 0], [2, 4], [0, 4]], "weight": 100 }] });
+        let found = Analysis::new(scene(&file));
+        let options = drystone::figure::Options::default();
+        let page = drystone::figure::draw(&found, drystone::figure::Kind::Structure, &options);
+        drystone::output::svg::write(&page).matches("class=\"earth\"").count()
+    };
+    // A wall a hand's breadth away, and one far away.
+    assert_eq!([shown(2.1), shown(50.0)], [2, 1]);
+}

@@ -215,6 +215,48 @@ fn margins_are_an_effect_on_request() {
 }
 
 #[test]
+fn a_ladder_at_a_smooth_wall_needs_a_multiple_of_its_friction() {
+    use drystone::starter::Ladder;
+    // Moments about the foot: the wall gives N = W x / y, with the centroid at x and the contact at the height y.
+    for (friction, wall_friction) in [(0.4, 0.0), (0.7, 0.0), (0.3, 0.2)] {
+        let scene =
+            Scene::new(Ladder { friction, wall_friction, angle: 45.0, ..Ladder::default() }.scene()).expect("sound");
+        let found = Analysis::with(&scene, &Options::default().margins(true));
+        let margins = found.frames[0].margins.as_ref().expect("margins were requested");
+        let (corners, lever) = (scene.blocks()[0].body.polygon.outline().to_vec(), scene.blocks()[0].centroid.x);
+        let top = corners[1];
+        // The factor f with which both contacts slide: f μ (W − f ν N) = N and N (y + f ν x_t) = W x_c.
+        let slides = |factor: f64| {
+            let n = lever / (top.y + factor * wall_friction * top.x);
+            factor * friction * (1.0 - factor * wall_friction * n) - n
+        };
+        let (mut low, mut high) = (0.0, 100.0);
+        for _ in 0..200 {
+            let middle = (low + high) / 2.0;
+            if slides(middle) < 0.0 { low = middle } else { high = middle }
+        }
+        near(&self::low(margins, MarginKind::FrictionFactor), low, 1e-5 * low);
+        let verdict = if low > 1.0 { Verdict::Unstable } else { Verdict::Stable };
+        assert_eq!(found.frames[0].verdict, verdict, "{friction} {low}");
+    }
+}
+
+#[test]
+fn with_one_coefficient_the_factor_on_the_friction_is_the_least_friction_over_it() {
+    let found = margins(&arch(11, 0.3, 0.7));
+    let [End::At { value: factor, .. }, End::At { value: least, .. }] =
+        [MarginKind::FrictionFactor, MarginKind::Friction].map(|kind| low(&found, kind))
+    else {
+        panic!("both ends are confirmed")
+    };
+    assert!((factor - least / 0.7).abs() < 1e-12, "{factor} {least}");
+    // Smooth joints have no factor.
+    let mut smooth = wall(3, 2);
+    smooth["friction"] = json!(0);
+    assert!(margins(&smooth).of(MarginKind::FrictionFactor).is_none());
+}
+
+#[test]
 fn an_equal_frame_has_the_margins_of_the_earlier_one() {
     let mut file = on_floor(
         0.5,

@@ -91,7 +91,8 @@ const SCRIPT_MADE: &str = concat!(
 );
 
 /// The margins in a report, unless `--margins` requests all margins.
-const DEFAULT_MARGINS: [MarginKind; 3] = [MarginKind::LoadFactor, MarginKind::Friction, MarginKind::Tilt];
+const DEFAULT_MARGINS: [MarginKind; 4] =
+    [MarginKind::LoadFactor, MarginKind::Friction, MarginKind::FrictionFactor, MarginKind::Tilt];
 
 /// Files that are not valid scenes, with the error for the command line.
 type InvalidFiles = Vec<(Refused, CliError)>;

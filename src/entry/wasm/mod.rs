@@ -104,7 +104,7 @@ pub fn kinds() -> String {
 /// object with the names of the options of `check`: `margins` (true, false or a list), `wedging`, `verdict_only`,
 /// `accuracy`, `contact_tolerance`, `time_limit`, `frame` (a number from 1, or "last"), `blocks`, `no_notes`,
 /// `capacity` (such as "lintel", "lintel@2,3" or "lintel@1,3..3,3"), `for_all` (such as "tilt=±2,friction=0.5..0.7")
-/// and `sensitivity` (load_factor, tilt, horizontal_load, friction or kernel). Two more options are `timing` (true to
+/// and `sensitivity` (load_factor, tilt, horizontal_load, friction_factor, friction or kernel). Two more options are `timing` (true to
 /// add the times to the result) and `file` (the name of the file in the result).
 ///
 /// # Errors

@@ -191,7 +191,9 @@ impl Certificate {
                 need(contact.points.len() != 2 || contact.points[0] != contact.points[1], &|| {
                     format!("frame {n}, contact {k}: its two points are equal")
                 });
-                need(contact.friction >= 0.0, &|| format!("frame {n}, contact {k}: its friction is negative"));
+                need(contact.friction.min(contact.factor.unwrap_or(1.0)) >= 0.0, &|| {
+                    format!("frame {n}, contact {k}: its friction is negative")
+                });
             }
             need(frame.force.as_ref().is_none_or(|(body, _)| is_placed(*body)), &|| {
                 format!("frame {n}: a load on a body that is not placed")
@@ -402,7 +404,7 @@ impl Certificate {
             };
             let [first, second, sliding] = link.wrenches.each_ref().map(|wrench| wrench.power(&relative));
             for opening in [first, second].into_iter().take(contact.points.len()) {
-                let by = N::exact(contact.friction).times(&sliding.magnitude()).minus(&opening);
+                let by = contact.exact_mu::<N>().times(&sliding.magnitude()).minus(&opening);
                 if !by.is_at_most_zero() {
                     let by = by.float() / length_of_normal(contact);
                     faults.push(format!("{}: a contact force can resist, by {by:.1e}", self.names(contact)));
@@ -457,7 +459,7 @@ pub(super) const LATE: &str = "the time limit was reached";
 fn conditions<N: Number>(frame: &FrameForm, link: usize, amounts: &[N]) -> [N; 4] {
     let [n1, n2, t] = [0, 1, 2].map(|i| amounts[3 * link + i].clone());
     let Some(contact) = frame.contacts.get(link) else { return [n1, n2, t, N::zero()] };
-    let limit = N::exact(contact.friction).times(&n1.plus(&n2));
+    let limit = contact.exact_mu::<N>().times(&n1.plus(&n2));
     [n1, n2, limit.minus(&t), limit.plus(&t)]
 }
 

@@ -75,6 +75,9 @@ impl Limits<'_> {
             MarginKind::HorizontalLoad => self.with_gravity(given.pull + quarter_turn(given.pull) * value),
             MarginKind::Kernel => (Change { kernel: Some(value), ..same }, given.with_kernel(value)),
             MarginKind::LoadFactor => (Change { load_factor: Some(value), ..same }, given.with_load_factor(value)),
+            MarginKind::FrictionFactor => {
+                (Change { friction_factor: Some(value), ..same }, given.with_friction_factor(value))
+            }
             MarginKind::Robots => (same, given),
         }
     }

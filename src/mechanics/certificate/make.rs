@@ -293,6 +293,7 @@ fn contact_form(contact: &AssemblyContact, first_block: usize) -> ContactForm {
         points: contact.ends.iter().take(contact.points_in_use()).map(|end| pair(*end)).collect(),
         normal: (contact.kind == ContactKind::Corner).then_some([contact.normal.x, contact.normal.y]),
         friction: contact.friction,
+        factor: None,
     }
 }
 

@@ -28,6 +28,7 @@ use serde::{Deserialize, Serialize};
 
 pub use check::{Checked, FrameCheck, LimitCheck};
 
+use self::fraction::Number;
 use crate::mechanics::scene::CornerContacts;
 
 /// A point or a vector: x to the right and y up, in metres, newtons or without unit.
@@ -177,6 +178,9 @@ pub struct ContactForm {
     pub normal: Option<Pair>,
     /// The friction coefficient μ: |T| ≤ μ (N₁ + N₂).
     pub friction: f64,
+    /// The factor on the friction coefficient in a changed frame.
+    #[serde(skip)]
+    pub(crate) factor: Option<f64>,
 }
 
 /// The grip of a robot on a body.
@@ -282,6 +286,9 @@ pub struct Change {
     /// The friction coefficient of every contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
+    /// The factor on the friction coefficient of every contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_factor: Option<f64>,
     /// The safety kernel.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kernel: Option<f64>,
@@ -294,6 +301,14 @@ pub struct Change {
     /// The limits of each grip.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grip_limits: Option<Vec<[Option<f64>; 3]>>,
+}
+
+impl ContactForm {
+    /// Returns the friction coefficient times its factor.
+    fn exact_mu<N: Number>(&self) -> N {
+        let friction = N::exact(self.friction);
+        self.factor.map_or_else(|| friction.clone(), |factor| friction.times(&N::exact(factor)))
+    }
 }
 
 impl Change {
@@ -312,7 +327,10 @@ impl Change {
             errors: self.errors.clone(),
             ..frame.without_proof()
         };
-        changed.contacts.iter_mut().for_each(|contact| contact.friction = self.friction.unwrap_or(contact.friction));
+        for contact in &mut changed.contacts {
+            contact.friction = self.friction.unwrap_or(contact.friction);
+            contact.factor = self.friction_factor;
+        }
         for (grip, limits) in changed.grips.iter_mut().zip(self.grip_limits.iter().flatten()) {
             grip.limits = *limits;
         }

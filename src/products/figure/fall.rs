@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, Motion, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::products::wording::margin::OtherFriction;
 
 /// Relative speeds below this fraction of the largest relative speed count as zero. The tolerance is larger than that
 /// of forces, because the solver computes motions less accurately.
@@ -63,7 +64,12 @@ impl<'a> Fall<'a> {
     }
 
     /// A motion of a frame under other loads, and with another friction coefficient at all joints.
-    pub fn with_friction(analysis: &'a Analysis, frame: usize, motions: &[Motion], friction: Option<f64>) -> Fall<'a> {
+    pub fn with_friction(
+        analysis: &'a Analysis,
+        frame: usize,
+        motions: &[Motion],
+        friction: Option<OtherFriction>,
+    ) -> Fall<'a> {
         let (scene, found) = analysis.at(frame);
         let motions = motions_by_block(scene, motions);
         let mut fall = Fall { scene, frame, found, joints: Vec::new(), motions };
@@ -134,7 +140,7 @@ impl<'a> Fall<'a> {
         a - b
     }
 
-    fn found_joints(&self, friction: Option<f64>) -> Vec<Joint> {
+    fn found_joints(&self, friction: Option<OtherFriction>) -> Vec<Joint> {
         let contacts = &self.found.contacts;
         let relative = |contact: &Contact| contact.application_points.map(|at| self.relative(contact, at));
         let speeds = contacts.iter().flat_map(relative).map(|v| v.norm());
@@ -146,7 +152,8 @@ impl<'a> Fall<'a> {
         let one = |(number, contact): (usize, &Contact)| {
             let [a, b] = contact.interface.bodies;
             let turning = (spin(a) - spin(b)).abs() * self.found.length;
-            let friction = friction.unwrap_or(contact.interface.friction);
+            let present = contact.interface.friction;
+            let friction = friction.map_or(present, |other| other.of(present));
             Some(Joint { contact: number, ..joint(contact, relative(contact), (turning, friction), noise)? })
         };
         contacts.iter().enumerate().filter_map(one).collect()

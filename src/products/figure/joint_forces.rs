@@ -429,7 +429,7 @@ fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, governing: &Governing<'_>
         let [a, b] = interface.bodies;
         let relative = interface.ends.map(|end| velocity(a, end) - velocity(b, end));
         let slide = relative.map(|v| v.dot(&interface.tangent()));
-        let friction = governing.friction.unwrap_or(interface.friction);
+        let friction = governing.friction.map_or(interface.friction, |other| other.of(interface.friction));
         let opening = [0, 1].map(|k| relative[k].dot(&interface.normal) - friction * slide[k].abs());
         let closed = opening.map(|speed| speed.abs() < zero);
         let opens = opening.map(|speed| speed > moves);

@@ -64,8 +64,15 @@ fn rest_stroke(theme: &Theme, bold: f64) -> Stroke {
 fn safe_parts(canvas: &mut Canvas<'_>) {
     let (scene, theme, bold) = (canvas.scene(), canvas.theme(), canvas.in_units(SAFE_LINE_WIDTH));
     let key = |rank: u8, words: String, stroke: Stroke| Key::line(rank, words, canvas.mm(KEY_LENGTH), stroke);
-    let safe = Stroke::new(theme.safe, bold).mitred();
-    let safe_key = key(10, "safe part of an interface".into(), safe.clone());
+    // Where no forces balance the structure, nothing is safe.
+    let (ink, words, state) = match canvas.found().verdict {
+        Verdict::Stable => (theme.safe, "safe part of an interface", "safe"),
+        _ => {
+            (theme.faint, "part of an interface in which forces would have to act", "in which forces would have to act")
+        }
+    };
+    let safe = Stroke::new(ink, bold).mitred();
+    let safe_key = key(10, words.into(), safe.clone());
     let rest = rest_stroke(theme, bold);
     let rest_key = key(11, format!("unsafe part, for a kernel of {}", scene.kernel), rest.clone());
     for contact in &canvas.found().contacts {
@@ -74,7 +81,7 @@ fn safe_parts(canvas: &mut Canvas<'_>) {
         let length = contact.interface.length();
         let units = scene.units.length();
         let title = format!(
-            "Between {}: {} of {} safe",
+            "Between {}: {} of {} {state}",
             pair(scene, contact.interface.bodies),
             quantity((1.0 - scene.kernel) * length, units),
             quantity(length, units)
@@ -91,7 +98,7 @@ fn safe_parts(canvas: &mut Canvas<'_>) {
         shapes.push(if scene.kernel < 1.0 && length > 0.0 {
             Path::stroked(Outline::line(points), safe.clone())
         } else {
-            Path::filled(Outline::circle(points[0], 0.9 * bold), theme.safe)
+            Path::filled(Outline::circle(points[0], 0.9 * bold), ink)
         });
         let mark = Mark::new(Layer::Force, "interface", shapes).titled(title);
         canvas.put(mark.keyed(&safe_key).avoided(0.2));

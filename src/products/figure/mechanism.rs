@@ -43,7 +43,7 @@ impl Figure for Mechanism {
 
     fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
         if analysis.frames.iter().any(|frame| frame.verdict == Verdict::Unstable) {
-            &[MarginKind::LoadFactor, MarginKind::Friction]
+            &[MarginKind::LoadFactor, MarginKind::Friction, MarginKind::FrictionFactor]
         } else {
             &[]
         }

@@ -23,8 +23,8 @@ const TORQUE_SWEEP: f64 = 1.25 * core::f64::consts::PI;
 /// The angle at which the arc of an anticlockwise torque begins: −60°.
 const TORQUE_START: f64 = -core::f64::consts::PI / 3.0;
 
-/// Draws the ground as a hatched line along the edges that carry joints in any frame. On a lattice, and where no edge
-/// carries a joint, the ground is drawn as a shape.
+/// Draws the ground as a hatched line along the edges that carry joints in any frame, and along the edges of other parts that
+/// face the structure. On a lattice, the ground is drawn as a shape.
 pub(crate) fn ground(canvas: &mut Canvas<'_>) {
     let scene = canvas.scene();
     let structure = scene.bounds(&shown_blocks(scene)).map_or(canvas.structure, |bounds| canvas.camera.rect(bounds));
@@ -38,16 +38,22 @@ pub(crate) fn ground(canvas: &mut Canvas<'_>) {
                     && ends.iter().all(|end| canvas.camera.length(edge.distance(*end)) < canvas.mm(0.2))
             })
         };
-        let edges: Vec<Edge> = ground.body.polygon.edges().filter(touches).collect();
-        if edges.is_empty() || scene.lattice.is_some() {
+        let mut edges: Vec<Edge> = ground.body.polygon.edges().filter(touches).collect();
+        if edges.is_empty() {
+            edges = ground.body.polygon.edges().filter(|edge| faces(canvas, edge, structure)).collect();
+        }
+        if scene.lattice.is_some() {
             let bounds = canvas.camera.rect(ground.body.polygon.bounds());
             // Ground that carries nothing and lies far away does not make the picture larger.
-            if scene.lattice.is_some() && overlaps(bounds, structure, canvas.mm(12.0)) {
+            if overlaps(bounds, structure, canvas.mm(12.0)) {
                 let outline = canvas.camera.polygon(&ground.body.polygon);
                 let fill = ground.body.fill.map_or(canvas.theme().ground, colour);
                 let mark = Mark::new(Layer::Ground, "earth", vec![Path::filled(outline, fill)]);
                 canvas.put(mark.titled("Ground").avoided(0.0));
             }
+            continue;
+        }
+        if edges.is_empty() {
             continue;
         }
         let shapes: Vec<Path> = edges.iter().flat_map(|edge| hatched(canvas, body, edge, structure)).collect();
@@ -56,21 +62,45 @@ pub(crate) fn ground(canvas: &mut Canvas<'_>) {
     }
 }
 
-/// Draws one edge of the ground: a line, and a band of short lines on the side of the ground. A nearly horizontal edge
-/// ends 3 mm beyond the `structure`.
+/// How far the line of the ground goes beyond the structure, mm.
+const GROUND_BEYOND: f64 = 3.0;
+
+/// True if an edge of the ground lies beside the structure, and the structure is in front of it.
+fn faces(canvas: &Canvas<'_>, edge: &Edge, structure: PageRect) -> bool {
+    let [from, to] = [edge.from, edge.to].map(|p| canvas.camera.place(p));
+    let beyond = canvas.mm(GROUND_BEYOND);
+    let window = PageRect {
+        at: structure.at.moved(-beyond, -beyond),
+        width: structure.width + 2.0 * beyond,
+        height: structure.height + 2.0 * beyond,
+    };
+    let middle = structure.at.moved(structure.width / 2.0, structure.height / 2.0);
+    let (outward, off) = (edge.outward(), (middle.x - (from.x + to.x) / 2.0, middle.y - (from.y + to.y) / 2.0));
+    window.part_of([from, to]).is_some_and(|[from, to]| from.distance(to) > beyond)
+        && outward.x * off.0 - outward.y * off.1 > 0.0
+}
+
+/// Draws one edge of the ground: a line, and a band of short lines on the side of the ground. The line ends 3 mm beyond the
+/// `structure`.
 fn hatched(canvas: &Canvas<'_>, body: BodyId, edge: &Edge, structure: PageRect) -> Vec<Path> {
     let theme = canvas.theme();
     let [mut from, mut to] = [edge.from, edge.to].map(|p| canvas.place_on(body, p));
-    if (to.y - from.y).abs() < (to.x - from.x).abs() {
-        let (left, beyond) = (structure.at.x, canvas.mm(3.0));
-        let window = PageRect {
-            at: PagePoint::new(left - beyond, from.y.min(to.y) - 1.0),
+    let beyond = canvas.mm(GROUND_BEYOND);
+    let window = if (to.y - from.y).abs() < (to.x - from.x).abs() {
+        PageRect {
+            at: PagePoint::new(structure.at.x - beyond, from.y.min(to.y) - 1.0),
             width: structure.width + 2.0 * beyond,
             height: (to.y - from.y).abs() + 2.0,
-        };
-        if let Some(part) = window.part_of([from, to]) {
-            [from, to] = part;
         }
+    } else {
+        PageRect {
+            at: PagePoint::new(from.x.min(to.x) - 1.0, structure.at.y - beyond),
+            width: (to.x - from.x).abs() + 2.0,
+            height: structure.height + 2.0 * beyond,
+        }
+    };
+    if let Some(part) = window.part_of([from, to]) {
+        [from, to] = part;
     }
     let length = to.distance(from);
     if length <= 0.0 {

@@ -40,12 +40,16 @@ impl Figure for Utilisation {
     }
 
     fn stated_margins(&self, analysis: &Analysis) -> &'static [MarginKind] {
-        if verdict::has_cheap_margins(analysis) { &[MarginKind::Friction] } else { &[] }
+        if verdict::has_cheap_margins(analysis) { &[MarginKind::Friction, MarginKind::FrictionFactor] } else { &[] }
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, _options: &Options) -> Vec<String> {
         let (scene, found) = analysis.at(frame);
-        let mut words: Vec<String> = verdict::margin(scene, found, MarginKind::Friction).into_iter().collect();
+        let mut words: Vec<String> = [MarginKind::FrictionFactor, MarginKind::Friction]
+            .into_iter()
+            .find_map(|kind| verdict::margin(scene, found, kind))
+            .into_iter()
+            .collect();
         if found.verdict == Verdict::Undecided {
             words.push(reason(scene, found));
         }

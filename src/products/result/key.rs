@@ -342,7 +342,7 @@ pub static KEYS: &[Key] = &[
         key("mechanism", Motions, "velocities of the blocks as the collapse begins; empty if the frame stands"),
         key("margins", Object, "how far the frame is from collapse: the extreme values at which it stands; a margin is null if the frame stands at no value, if the margin does not exist in this frame, or if no value was confirmed (a notice then says so)").when(IF_MARGINS_REQUESTED).of(&MARGINS),
         key("sensitivity", Object, "exact derivatives of the ends of one margin's interval with respect to vertices, weights, friction and loads, for unchanged contacts. At a kink, where a derivative differs between the possible forces and mechanisms, it is `at_kink`").when("with `--sensitivity`").of(&[
-            key("parameter", Word(&["friction", "tilt", "horizontal_load", "kernel", "load_factor"]), "parameter of the margin"),
+            key("parameter", Word(&["friction", "tilt", "horizontal_load", "kernel", "load_factor", "friction_factor"]), "parameter of the margin"),
             key("ends", Objects, "ends of the interval that have a value and a mechanism").of(&[
                 key("end", Word(&["low", "high"]), "lower or upper end"),
                 key("value", Number, "value of the parameter: in degrees for the tilt, otherwise without a unit"),

@@ -125,7 +125,7 @@ pub fn removable_phrases(scene: &Scene, rows: &[Removable]) -> Vec<String> {
     let free = rows.iter().filter(|row| row.rest == Verdict::Stable);
     let free: Vec<String> = free.map(|row| name(row.block).to_owned()).collect();
     let mut phrases = vec![match free.len() {
-        0 => "no block may leave".to_owned(),
+        0 => "no block may leave alone".to_owned(),
         n => {
             let of = counted(rows.len(), "block");
             format!("{n} of {of} may leave alone: {}", listed(&shortened(free, MAX_FREE_NAMED)))
@@ -260,6 +260,31 @@ pub fn movement_sentence(scene: &Scene, found: &FrameAnalysis, moved: &SupportMo
         ),
         other => format!("if {first}, {}", without_state(other)),
     }
+}
+
+/// States the first movement for a headline: how wide the widest joint opens, or that the structure does not follow.
+pub fn movement_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
+    let moved = found.movements.first()?;
+    let first = movement(scene, moved);
+    let more = match found.movements.len() {
+        1 => String::new(),
+        count => format!(" (1 of {count} movements)"),
+    };
+    let words = match &moved.outcome {
+        MovementOutcome::Follows(cracked) => {
+            let widest = cracked.cracks.iter().map(|crack| crack.opening).fold(0.0, f64::max);
+            let opens = match cracked.cracks.len() {
+                0 => "follows without a crack".to_owned(),
+                count => {
+                    let (joints, open) = (counted(count, "joint"), if count == 1 { "opens" } else { "open" });
+                    format!("{joints} {open} by up to {}", quantity(widest * cracked.unit, scene.units().length()))
+                }
+            };
+            format!("{opens} if {first}")
+        }
+        other => format!("{}, if {first}", without_state(other)),
+    };
+    Some(words + &more)
 }
 
 /// Says why a structure does not follow.

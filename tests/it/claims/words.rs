@@ -94,8 +94,8 @@ fn the_terminals_table_says_what_the_result_says() {
                 used => assert!((numbers(used)[0] - share).abs() <= 0.051, "{share}: {table}"),
             }
         }
-        let stands_on = ["carries", "falls at", "needs friction", "stands up to"];
-        let lacks = ["carries", "would need", "no friction coefficient"];
+        let stands_on = ["carries", "falls at", "needs friction", "stands up to", "stands down to"];
+        let lacks = ["carries", "would need", "no friction coefficient", "no multiple", "stands if corners carry"];
         let beginnings: &[&str] = if word == " stands " { &stands_on } else { &lacks };
         assert!(margin == "-" || beginnings.iter().any(|words| margin.starts_with(words)), "{margin}: {table}");
         assert_proof(proof, &frame["proof"]);

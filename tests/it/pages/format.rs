@@ -188,12 +188,12 @@ fn defaults_and_units_are_those_of_the_page() {
             Result("/frames/0/interfaces/0/application_points", json!([[1, 0], [0, 0]])),
         ),
         Claim(
-            "default `false` | Whether a corner that touches an edge or another corner carries force.",
+            "default `false` | Which corners that touch carry force: none (`false`), all (`true`), or",
             block(json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }), json!({})),
             Result(STANDS, json!("unstable")),
         ),
         Claim(
-            "Whether a corner that touches an edge or another corner carries force.",
+            "none (`false`), all (`true`), or `\"on_edges\"`: those that touch an edge, but not those that touch only another corner.",
             block(json!({ "polygon": [[0, 0], [1, 1], [0, 2], [-1, 1]] }), json!({ "corner_contacts": true })),
             Result("/frames/0/interfaces/0/kind", json!("corner")),
         ),

@@ -109,6 +109,29 @@ impl Interval {
         Interval::Empty(vec![Exclusion::everywhere(mechanism)])
     }
 
+    /// Returns the interval of the parameter in another unit: all values times a positive factor.
+    pub(super) fn scaled(&self, factor: f64) -> Interval {
+        let end = |end: &End| match end {
+            End::At { value, mechanism } => End::At { value: value * factor, mechanism: mechanism.clone() },
+            End::Unconfirmed { stands, beyond } => {
+                End::Unconfirmed { stands: stands * factor, beyond: beyond * factor }
+            }
+            End::Unbounded => End::Unbounded,
+        };
+        match self {
+            Interval::Between { low, high } => Interval::Between { low: end(low), high: end(high) },
+            Interval::Empty(all) => {
+                let times = |own: &Exclusion| Exclusion {
+                    from: own.from.map(|value| value * factor),
+                    to: own.to.map(|value| value * factor),
+                    ..own.clone()
+                };
+                Interval::Empty(all.iter().map(times).collect())
+            }
+            Interval::Undecided => Interval::Undecided,
+        }
+    }
+
     /// Returns the lower end of the interval; `None` if the interval is empty or undecided.
     pub fn low(&self) -> Option<&End> {
         match self {

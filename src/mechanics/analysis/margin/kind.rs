@@ -28,6 +28,10 @@ pub enum MarginKind {
     /// The factor on the listed loads, at least 0; 1 means the loads as listed. The upper end is the margin. A frame
     /// without listed loads has no such interval.
     LoadFactor,
+    /// The factor on all friction coefficients, at least 0; 1 means the coefficients as given, and smooth interfaces stay
+    /// smooth. Its interval has no upper end. The margin is the lower end; its reciprocal is the factor of safety of
+    /// geotechnics. A frame without friction has no such interval.
+    FrictionFactor,
     /// The limits of every robot that holds a block, each varied alone. The lower ends are the margins.
     Robots,
 }
@@ -194,17 +198,38 @@ static ABOUT: [About; MarginKind::ALL.len()] = [
         },
         ..About::PLAIN
     },
+    About {
+        words: ["friction_factor", "friction-factor"],
+        name: "factor on the friction",
+        notice: ["the least factor on the friction", "the largest factor on the friction"],
+        limited: ["least friction factor"; 2],
+        keys: [
+            "least factor on all friction coefficients; null also without friction",
+            "factor on all friction coefficients; 1 stands for those of the scene, and smooth interfaces stay smooth",
+            "they exclude all factors up to that which makes the largest coefficient 1000",
+            "just below the least factor on the friction",
+        ],
+        condition: "if requested, with friction",
+        at: "this friction",
+        ends: [true, false],
+        present: Some(1.0),
+        applies: Some(|trial| trial.largest_friction() > 0.0),
+        setting: |friction_factor| Setting { friction_factor, ..Setting::default() },
+        path: |trial, setting| Path::threshold(MarginKind::MAX_FRICTION / trial.largest_friction(), setting),
+        ..About::PLAIN
+    },
     About { words: ["robots", "robots"], at: "this limit", ends: [true, false], ..About::PLAIN },
 ];
 
 impl MarginKind {
     /// All margins.
-    pub const ALL: [MarginKind; 6] = [
+    pub const ALL: [MarginKind; 7] = [
         MarginKind::Friction,
         MarginKind::Tilt,
         MarginKind::HorizontalLoad,
         MarginKind::Kernel,
         MarginKind::LoadFactor,
+        MarginKind::FrictionFactor,
         MarginKind::Robots,
     ];
 

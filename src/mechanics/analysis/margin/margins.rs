@@ -248,6 +248,7 @@ mod tests {
             (MarginKind::HorizontalLoad, "horizontal_load"),
             (MarginKind::Kernel, "kernel"),
             (MarginKind::LoadFactor, "load_factor"),
+            (MarginKind::FrictionFactor, "friction_factor"),
             (MarginKind::Robots, "robots"),
         ] {
             assert_eq!((kind.word(), MarginKind::from_word(word)), (word, Some(kind)));

@@ -38,16 +38,15 @@ pub(super) fn margins(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_
     use MarginKind::{HorizontalLoad, Tilt};
     let is_asked = kinds.has(MarginKind::Robots) && trial.holds().len() <= MAX_ROBOTS;
     let robots = if is_asked { robots(trial, stands) } else { Vec::new() };
-    let mut each = Vec::new();
-    let mut add = |kind: MarginKind, interval: Interval| each.push(Margin::new(kind, None, interval));
+    let mut each: Vec<Margin> = Vec::new();
     // The interval of tilts may follow from the horizontal load, so compute the horizontal load if either of the two
     // margins is requested.
     if kinds.has(HorizontalLoad) || kinds.has(Tilt) {
         let interval = linear(trial, &HorizontalLoad.path(trial), 0.0, stands);
         if with_tilt {
-            add(Tilt, tilts_around_present(trial, &interval));
+            each.push(Margin::new(Tilt, None, tilts_around_present(trial, &interval)));
         }
-        add(HorizontalLoad, interval);
+        each.push(Margin::new(HorizontalLoad, None, interval));
     }
     for kind in MarginKind::of_frame().filter(|kind| kinds.has(*kind) && !kind.is_signed()) {
         let about = kind.about();
@@ -55,11 +54,15 @@ pub(super) fn margins(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_
             continue;
         }
         let path = kind.path(trial);
-        let interval = match about.present {
-            Some(present) if path.predictor == Predictor::Plane => linear(trial, &path, present, stands),
+        // With one friction coefficient, a factor on the friction is the coefficient in another unit.
+        let known = trial.only_friction().filter(|mu| kind == MarginKind::FrictionFactor && *mu > 0.0);
+        let known = known.and_then(|mu| Some((mu, each.iter().find(|own| own.kind == MarginKind::Friction)?)));
+        let interval = match (known, about.present) {
+            (Some((mu, own)), _) => own.interval.scaled(1.0 / mu),
+            (_, Some(present)) if path.predictor == Predictor::Plane => linear(trial, &path, present, stands),
             _ => threshold(trial, &path, if about.ends[1] { 1.0 } else { -1.0 }),
         };
-        add(kind, interval);
+        each.push(Margin::new(kind, None, interval));
     }
     each.extend(robots);
     Margins { kinds, each, notes: Vec::new() }

@@ -31,6 +31,8 @@ pub fn trials() -> usize {
 pub(in crate::mechanics::analysis) struct Setting {
     /// One friction coefficient for every interface; `None` leaves the coefficients unchanged.
     pub friction: Option<f64>,
+    /// Factor on every friction coefficient.
+    pub friction_factor: f64,
     /// The safety kernel; `None` leaves it unchanged.
     pub kernel: Option<f64>,
     /// The fraction of each weight that acts along gravity.
@@ -74,6 +76,7 @@ impl Setting {
     /// No weights and no loads act.
     pub const UNLOADED: Setting = Setting {
         friction: None,
+        friction_factor: 1.0,
         kernel: None,
         along: 0.0,
         across: 0.0,
@@ -97,6 +100,9 @@ impl Setting {
         }
         if let Some(mu) = self.friction {
             changed = changed.with_friction(mu);
+        }
+        if self.friction_factor != 1.0 {
+            changed = changed.with_friction_factor(self.friction_factor);
         }
         if !self.has_fixed_loads {
             changed.bodies.iter_mut().for_each(|body| body.fixed = LoadVector::ZERO);
@@ -141,6 +147,17 @@ impl<'a> Trial<'a> {
     /// True if the scene lists a load on the component.
     pub fn is_loaded(&self) -> bool {
         is_loaded(self.original)
+    }
+
+    /// Returns the largest friction coefficient of the component; 0 without contacts.
+    pub fn largest_friction(&self) -> f64 {
+        self.original.contacts.iter().map(|contact| contact.friction).fold(0.0, f64::max)
+    }
+
+    /// Returns the friction coefficient of the component if all its contacts have the same.
+    pub fn only_friction(&self) -> Option<f64> {
+        let largest = self.largest_friction();
+        self.original.contacts.iter().all(|contact| contact.friction == largest).then_some(largest)
     }
 
     /// True if the load factor multiplies some load of the component.

@@ -36,8 +36,14 @@ impl FromStr for Setting {
         if name.is_empty() || value.is_empty() {
             return Err(wrong());
         }
-        // A word without quotes is a string: `units.length=mm`.
-        let value = if parse(value).is_ok() { value.to_owned() } else { quoted(value) };
+        // A word without quotes is a string: `units.length=mm`. JSON has no number without a digit before the point.
+        let digits =
+            value.strip_prefix('-').unwrap_or(value).strip_prefix('.').filter(|_| value.parse::<f64>().is_ok());
+        let value = match digits {
+            Some(digits) => format!("{}0.{digits}", if value.starts_with('-') { "-" } else { "" }),
+            None if parse(value).is_ok() => value.to_owned(),
+            None => quoted(value),
+        };
         let setting = Setting { name: name.to_owned(), value };
         if setting.is_factor() && !setting.number().is_some_and(f64::is_finite) {
             return Err(format!("{name} needs a number, such as {name}=2"));

@@ -245,6 +245,14 @@ impl Assembly {
         self
     }
 
+    /// Multiplies the friction coefficient of every contact by `factor`.
+    pub fn with_friction_factor(mut self, factor: f64) -> Assembly {
+        for contact in &mut self.contacts {
+            contact.friction *= factor;
+        }
+        self
+    }
+
     /// Moves the application points inward by `kernel`/2 of each interface's length, measured from the interface's
     /// ends.
     pub fn with_kernel(mut self, kernel: f64) -> Assembly {

@@ -6,7 +6,7 @@ use super::{Grid, TableCell};
 use crate::mechanics::analysis::{Analysis, FALLS, FrameAnalysis, MarginKind, Motion, Verdict};
 use crate::products::figure::{Fall, Joint, Kind};
 use crate::products::wording::failure::unsupported_phrase;
-use crate::products::wording::margin::governing;
+use crate::products::wording::margin::{OtherFriction, governing};
 use crate::products::wording::number::{counted, percent};
 use crate::text::line;
 
@@ -22,7 +22,7 @@ pub(super) struct Collapse {
     /// The margin in words: `carries 2.8 × its loads`. Empty for a frame that falls.
     margin: String,
     /// The friction coefficient of all joints in this collapse, if it is not the present one.
-    friction: Option<f64>,
+    friction: Option<OtherFriction>,
 }
 
 impl Collapse {

@@ -1,13 +1,15 @@
 //! [`Row`]: the row of one scene in the table of all scenes.
 
+use std::sync::Arc;
+
 use super::bullet;
-use crate::mechanics::analysis::{Analysis, STANDS, Verdict};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, STANDS, Verdict};
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::{Camera, Outline, PagePoint, Segment};
 use crate::products::wording::failure;
 use crate::products::wording::margin::headline;
-use crate::products::wording::number::quantity;
+use crate::products::wording::number::{letter, quantity};
 use crate::text::{self, line};
 
 /// Width and height of a thumbnail, in pixels.
@@ -29,6 +31,8 @@ pub struct Row {
     pub verdict: Verdict,
     /// In a comparison, the verdict of the first scene; otherwise `None`.
     pub before: Option<Verdict>,
+    /// The steps that have the worst verdict, such as ` in step (c) of 5`; empty if all stand, or for a single frame.
+    pub steps: String,
     /// The number of steps that stand, and the number of all steps.
     pub stand: (usize, usize),
     /// The number of different blocks that the steps place.
@@ -88,6 +92,7 @@ impl Row {
             title,
             verdict: analysis.verdict(),
             before: None,
+            steps: worst_steps(frames),
             stand: (standing().count(), frames.len()),
             blocks: placed.len(),
             headline: line(&headline(scene, number, &frames[number])),
@@ -104,11 +109,12 @@ impl Row {
 }
 
 impl Row {
-    /// Returns the verdict as text, or both verdicts of a comparison: `stands → falls`.
+    /// Returns the verdict as text, or both verdicts of a comparison: `stands → falls`. Of a scene with several steps, it
+    /// names the steps: `falls in step (c) of 5`.
     pub(crate) fn verdict_words(&self) -> String {
         match self.before {
             Some(before) => format!("{} → {}", before.plain(), self.verdict.plain()),
-            None => self.verdict.plain().to_owned(),
+            None => format!("{}{}", self.verdict.plain(), self.steps),
         }
     }
 
@@ -124,6 +130,18 @@ impl Row {
     pub(crate) fn largest_words(&self) -> String {
         let words = |largest| quantity(largest, self.units.force());
         self.largest.map_or_else(|| format!("none {STANDS}"), words)
+    }
+}
+
+/// Says which steps have the worst verdict, if not all steps stand: ` in step (c) of 5`. Empty for a single frame.
+fn worst_steps(frames: &[Arc<FrameAnalysis>]) -> String {
+    let worst = frames.iter().map(|frame| frame.verdict).max().filter(|worst| *worst != Verdict::Stable);
+    let is_worst = |number: &usize| Some(frames[*number].verdict) == worst;
+    let steps: Vec<String> = (0..frames.len()).filter(is_worst).map(|number| format!("({})", letter(number))).collect();
+    match (&steps[..], frames.len()) {
+        ([], _) | (_, 1) => String::new(),
+        ([step], count) => format!(" in step {step} of {count}"),
+        (steps, count) => format!(" in {} of {count} steps, first in {}", steps.len(), steps[0]),
     }
 }
 

@@ -67,7 +67,7 @@ pub(super) fn head(head: &Head<'_>, numbers: &[usize]) -> Vec<Page> {
 pub(super) fn section(entry: &Entry) -> Vec<Page> {
     let mut flow = Flow::new(foot(entry));
     let row = &entry.row;
-    let title = format!("{}: {}", row.title, row.verdict.plain());
+    let title = format!("{}: {}", row.title, row.verdict_words());
     flow.title(&title, &entry.details);
     for (number, section) in entry.sections.iter().enumerate() {
         if section.begins_page {

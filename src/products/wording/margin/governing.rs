@@ -2,6 +2,7 @@
 //! collapse at its limit; for a falling frame what it lacks to stand.
 
 use super::{StatedMargin, confirmed, friction, stated};
+use crate::geometry::range_of;
 use crate::mechanics::analysis::{End, FrameAnalysis, Interval, MarginKind, Motion, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::products::wording::number::{NO_BREAK, digits, three_down, three_up};
@@ -9,6 +10,25 @@ use crate::products::wording::question;
 
 /// The needed friction is stated if it is at least this fraction of the present friction.
 const NEAR_FRICTION: f64 = 0.8;
+
+/// The friction of all joints, if it is not the present one.
+#[derive(Clone, Copy, Debug)]
+pub enum OtherFriction {
+    /// All joints have this coefficient.
+    Coefficient(f64),
+    /// All joints have their coefficient times this factor.
+    Factor(f64),
+}
+
+impl OtherFriction {
+    /// Returns the friction coefficient of a joint with a `present` coefficient.
+    pub fn of(self, present: f64) -> f64 {
+        match self {
+            OtherFriction::Coefficient(friction) => friction,
+            OtherFriction::Factor(factor) => factor * present,
+        }
+    }
+}
 
 /// The words after a verdict, and the motion to which they belong.
 #[derive(Clone, Debug, Default)]
@@ -21,8 +41,8 @@ pub struct Governing<'a> {
     pub at: &'static str,
     /// The collapse just beyond the first margin; for a frame that falls, its own collapse. Empty if it is not known.
     pub mechanism: &'a [Motion],
-    /// The friction coefficient of all joints at which this collapse happens, if it is not the present one.
-    pub friction: Option<f64>,
+    /// The friction of all joints at which this collapse happens, if it is not the present one.
+    pub friction: Option<OtherFriction>,
 }
 
 /// Returns the headline margin of a frame in words, followed by its tilt and its friction if they say more. The list is
@@ -56,6 +76,9 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
             };
         }
     }
+    if let Some(words) = question::movement_headline(scene, found) {
+        governing.words.insert(0, words);
+    }
     governing.words.extend(question::worst_case(found));
     governing
 }
@@ -73,11 +96,14 @@ pub fn headline(scene: &Scene, number: usize, found: &FrameAnalysis) -> String {
 
 fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governing<'a> {
     let margins = stated(scene, found);
+    let has_factor = margins.iter().any(|margin| margin.kind == MarginKind::FrictionFactor);
     let mut governing = Governing::default();
     for (place, margin) in margins.iter().enumerate() {
         let is_more = match margin.kind {
             MarginKind::Tilt => true,
-            MarginKind::Friction => friction_share(margin, found) >= NEAR_FRICTION,
+            // One coefficient everywhere is another structure than one with several. Then the factor is stated.
+            MarginKind::Friction => !(margin.differs() && has_factor) && friction_share(margin, found) >= NEAR_FRICTION,
+            MarginKind::FrictionFactor => least(margin) >= NEAR_FRICTION,
             _ => false,
         };
         let Some((words, end)) = reserve(margin, found, load).filter(|_| place == 0 || is_more) else {
@@ -88,7 +114,11 @@ fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governin
             && let Some(End::At { mechanism, value }) = end
         {
             governing.mechanism = mechanism;
-            governing.friction = (margin.kind == MarginKind::Friction).then_some(*value);
+            governing.friction = match margin.kind {
+                MarginKind::Friction => Some(OtherFriction::Coefficient(*value)),
+                MarginKind::FrictionFactor => Some(OtherFriction::Factor(*value)),
+                _ => None,
+            };
             governing.at = margin.kind.about().at;
         }
         governing.words.push(words + &elsewhere(margin, end, found));
@@ -105,10 +135,22 @@ fn elsewhere(margin: &StatedMargin<'_>, end: Option<&End>, found: &FrameAnalysis
     name.map_or_else(String::new, |name| format!(" ({name})"))
 }
 
+/// Returns the least value with which the frame stands; 0 if there is none.
+fn least(margin: &StatedMargin<'_>) -> f64 {
+    margin.interval.low().and_then(confirmed).unwrap_or(0.0)
+}
+
 /// Returns the needed friction as a fraction of the least present friction.
 fn friction_share(margin: &StatedMargin<'_>, found: &FrameAnalysis) -> f64 {
-    let needed = margin.interval.low().and_then(confirmed).unwrap_or(0.0);
-    friction(found).map_or(0.0, |(least, _)| needed / least)
+    friction(found).map_or(0.0, |(present, _)| least(margin) / present)
+}
+
+/// States a factor on the friction, with the coefficient in brackets if all joints that are not smooth have the same.
+fn times_friction(factor: f64, found: &FrameAnalysis) -> String {
+    let rough = found.contacts.iter().map(|contact| contact.interface.friction).filter(|friction| *friction > 0.0);
+    let (least, most) = range_of(rough);
+    let coefficient = if least == most { format!(" ({})", three_up(factor * most)) } else { String::new() };
+    format!("{} × its friction{coefficient}", three_up(factor))
 }
 
 /// States a margin of a frame that stands, and the end of its interval to which the words belong. `None` if the
@@ -156,6 +198,10 @@ fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> 
             };
             Some((words, end))
         }
+        MarginKind::FrictionFactor => {
+            let (needed, end) = value(low).filter(|(needed, _)| *needed > 0.0)?;
+            Some((format!("stands down to {}", times_friction(needed, found)), end))
+        }
         MarginKind::Kernel => {
             let (kernel, end) = value(high)?;
             Some((format!("stands up to a kernel of {}", three_down(kernel)), end))
@@ -174,7 +220,22 @@ pub(super) fn lack(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<Stri
     let loads = margins.of(MarginKind::LoadFactor);
     loads
         .and_then(|interval| load_lack(scene, interval))
+        .or_else(|| factor_lack(frame_analysis, margins.of(MarginKind::FrictionFactor)?))
         .or_else(|| friction_lack(frame_analysis, margins.of(MarginKind::Friction)?))
+}
+
+/// Describes the factor on the friction with which a frame of different coefficients would stand, or states that no factor
+/// would hold it. Returns `None` if all coefficients are equal, or if the factor is not known.
+fn factor_lack(frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<String> {
+    friction(frame_analysis).filter(|(least, most)| least < most)?;
+    match interval {
+        Interval::Empty(_) => Some("no multiple of its friction would hold it".to_owned()),
+        Interval::Undecided => None,
+        Interval::Between { low, .. } => {
+            let needed = confirmed(low).filter(|needed| *needed > 1.0)?;
+            Some(format!("would need {}", times_friction(needed, frame_analysis)))
+        }
+    }
 }
 
 /// Describes which fraction of its loads a falling frame carries, or how many times its loads it would need to stand.

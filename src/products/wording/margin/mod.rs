@@ -7,7 +7,7 @@ mod governing;
 
 #[cfg(any(feature = "report", feature = "cli"))]
 pub use governing::headline;
-pub use governing::{Governing, governing};
+pub use governing::{Governing, OtherFriction, governing};
 
 use super::number::{amount, digits, three_down, three_up};
 use super::question;
@@ -87,12 +87,17 @@ pub struct StatedMargin<'a> {
 }
 
 impl StatedMargin<'_> {
+    /// True if the joints have different values now: friction coefficients.
+    fn differs(&self) -> bool {
+        self.present.is_some_and(|(low, high)| low < high)
+    }
+
     /// Describes the interval and the current value of the margin: `stands from 0.3 to 2.4; now 1`.
     pub fn sentence(&self) -> String {
         let governed = self.governed.as_ref().map(|names| format!("governed by {names}"));
         // One coefficient everywhere is another structure than one with different coefficients.
         let stands = match self.present {
-            Some((low, high)) if self.kind == MarginKind::Friction && low < high => {
+            Some((low, _)) if self.kind == MarginKind::Friction && self.differs() => {
                 let smooth = if low == 0.0 { ", smooth ones too" } else { "" };
                 format!("{}, the same at all joints{smooth}", self.stands())
             }
@@ -196,6 +201,7 @@ impl StatedMargin<'_> {
             Interval::Empty(excluded) => {
                 let none = match self.kind {
                     MarginKind::LoadFactor => "stands under no multiple of its loads",
+                    MarginKind::FrictionFactor => "stands with no multiple of its friction",
                     _ => "stands at no value",
                 };
                 return match conflict(excluded) {
@@ -238,7 +244,7 @@ impl StatedMargin<'_> {
         let value = |value: f64| self.end(value, true);
         // An interval that is shorter than the rounding is one value.
         let is_one = |low: f64, high: f64| self.value(low) == self.value(high);
-        if self.kind == MarginKind::LoadFactor {
+        if let MarginKind::LoadFactor | MarginKind::FrictionFactor = self.kind {
             let factor = match (least, most) {
                 (None, None) => "any factor".to_owned(),
                 (None, Some(high)) => format!("at most {}", value(high)),
@@ -246,7 +252,8 @@ impl StatedMargin<'_> {
                 (Some(low), Some(high)) if is_one(low, high) => self.value(low),
                 (Some(low), Some(high)) => format!("{} to {}", least_words(low), value(high)),
             };
-            return format!("with its loads times {factor}");
+            let what = if self.kind == MarginKind::LoadFactor { "loads" } else { "friction" };
+            return format!("with its {what} times {factor}");
         }
         match (least, most) {
             (None, None) => "at any value".to_owned(),
@@ -319,7 +326,13 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
         let name = kind.about().name.to_owned();
         Some(StatedMargin { kind, unit: None, name, interval, present, position, conditions: *conditions, governed })
     };
-    let mut list: Vec<StatedMargin<'_>> = MarginKind::of_frame().filter_map(margin).collect();
+    // With one coefficient, the factor on the friction says the same as the coefficient.
+    let is_same = |kind: MarginKind| {
+        let is_alike = friction(frame_analysis).is_none_or(|(least, most)| least == most);
+        kind == MarginKind::FrictionFactor && is_alike && margins.of(MarginKind::Friction).is_some()
+    };
+    let kinds = MarginKind::of_frame().filter(|kind| !is_same(*kind));
+    let mut list: Vec<StatedMargin<'_>> = kinds.filter_map(margin).collect();
     list.sort_by_key(|margin| margin.kind != MarginKind::LoadFactor);
     list.extend(robot_limits(scene, margins, position));
     if let Some(first) = most_important(&list) {
@@ -370,7 +383,11 @@ fn robot_limits<'a>(scene: &Scene, margins: &'a Margins, position: Position) -> 
 /// Otherwise it is the margin with the smallest [`StatedMargin::reserve`]. Returns `None` for an empty list.
 fn most_important(list: &[StatedMargin<'_>]) -> Option<usize> {
     let loads = list.iter().position(|m| m.kind == MarginKind::LoadFactor && !m.has_no_limit());
-    let reserves = list.iter().map(StatedMargin::reserve).enumerate();
+    // One coefficient everywhere is another structure than one with several, for which there is the factor.
+    let has_factor = list.iter().any(|margin| margin.kind == MarginKind::FrictionFactor);
+    let is_other = |margin: &StatedMargin<'_>| has_factor && margin.kind == MarginKind::Friction && margin.differs();
+    let reserves = list.iter().enumerate().filter(|(_, margin)| !is_other(margin));
+    let reserves = reserves.map(|(place, margin)| (place, margin.reserve()));
     loads.or_else(|| reserves.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(first, _)| first))
 }
 
