@@ -164,8 +164,8 @@ def form(file, frame):
     moved = [m["body"] for m in frame["motion"] or []] + [body for own, _ in frame["still"] for body in own]
     moved += (frame.get("force") or [])[:1]
     points = [(len({*map(tuple, c["points"])}), len(c["points"]), 2 - ("normal" in c)) for c in contacts]
-    numbers = [file["distance"], file["shortest"], *(body["weight"] for body in bodies), frame.get("friction", 0)]
-    numbers += [frame.get("friction_factor", 0)] + [c["friction"] for c in contacts] + [limit or 0 for limit in limits_of(frame)]
+    numbers = [file["distance"], file["shortest"], *(frame.get(key, 0) for key in ("friction", "friction_factor"))]
+    numbers += [b["weight"] for b in bodies] + [c["friction"] for c in contacts] + [n or 0 for n in limits_of(frame)]
     rules = {
         "the version": file["drystone_certificate"] == 1,
         "a body": all(body["is_fine"] for body in bodies),

@@ -51,8 +51,8 @@ request! {
     /// Whether margins are computed, and which.
     #[derive(Clone, Debug)]
     pub(crate) struct MarginArgs(given) {
-        /// Compute how far each frame is from its limit: least friction and factor on it, largest tilt, horizontal load, kernel and
-        /// factor on the loads, least limits of robots; or only some of these, such as friction,tilt
+        /// Compute how far each frame is from its limit: least friction and factor on it, largest tilt, horizontal load,
+        /// kernel and factor on the loads, least limits of robots; or only some of these, such as friction,tilt
         margins: Option<Vec<MarginKind>> = given.all_or_some("margins"),
             arg(long, value_parser = crate::text::typed_word::<MarginKind>(), value_name = "LIST",
                 value_delimiter = ',', num_args = 0.., require_equals = true);
@@ -341,7 +341,10 @@ impl FigureArgs {
     pub(crate) fn options(&self, theme: Theme, width: Option<f64>) -> Result<figure::Options, String> {
         let toward = self.margin.map(|margin| margin.0).unwrap_or_default();
         if self.kind.needs_margins() && !toward.changes_loads() {
-            return Err("--kind margin cannot show the margins friction and kernel; use --kind sensitivity".into());
+            return Err(
+                "--kind margin cannot show the margins friction, friction_factor and kernel; use --kind sensitivity"
+                    .into(),
+            );
         }
         Ok(figure::Options { toward, theme, width, ..self.options.clone() })
     }

@@ -217,7 +217,6 @@ fn margins_are_an_effect_on_request() {
 #[test]
 fn a_ladder_at_a_smooth_wall_needs_a_multiple_of_its_friction() {
     use drystone::starter::Ladder;
-    // Moments about the foot: the wall gives N = W x / y, with the centroid at x and the contact at the height y.
     for (friction, wall_friction) in [(0.4, 0.0), (0.7, 0.0), (0.3, 0.2)] {
         let scene =
             Scene::new(Ladder { friction, wall_friction, angle: 45.0, ..Ladder::default() }.scene()).expect("sound");
@@ -225,7 +224,8 @@ fn a_ladder_at_a_smooth_wall_needs_a_multiple_of_its_friction() {
         let margins = found.frames[0].margins.as_ref().expect("margins were requested");
         let (corners, lever) = (scene.blocks()[0].body.polygon.outline().to_vec(), scene.blocks()[0].centroid.x);
         let top = corners[1];
-        // The factor f with which both contacts slide: f μ (W − f ν N) = N and N (y + f ν x_t) = W x_c.
+        // With the factor f, both contacts slide. Forces along x: N = f μ (W − f ν N), with the force N of the wall. Moments
+        // about the foot: N (y + f ν x) = W c, with the contact at (x, y) and the centroid at the distance c. Here W = 1.
         let slides = |factor: f64| {
             let n = lever / (top.y + factor * wall_friction * top.x);
             factor * friction * (1.0 - factor * wall_friction * n) - n

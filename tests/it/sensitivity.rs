@@ -300,6 +300,20 @@ fn the_derivatives_of_a_loaded_arch_equal_central_differences() {
     assert!(tally.worst < 6e-10, "{}", tally.worst);
 }
 
+#[test]
+fn the_derivatives_of_a_factor_on_the_friction_equal_central_differences() {
+    for (count, thickness) in [(5, 0.5), (6, 0.8)] {
+        let file = loaded_arch(count, thickness, 0.4, 1, &json!({ "density": 1 }));
+        let found = end(&file, MarginKind::FrictionFactor, false).expect("a least factor");
+        let all = found.friction_of_all.and_then(|slope| slope.unique()).expect("unique");
+        let friction = file["friction"].as_f64().expect("a coefficient");
+        // The least coefficient c is fixed, so the factor is c/μ.
+        assert!((all + found.value / friction).abs() < 1e-6, "{all} {}", found.value);
+        let tally = compared(&file, MarginKind::FrictionFactor, false, 1).expect("it has an end");
+        assert!(tally.wrong.is_empty() && tally.slopes > 5, "{tally:?}");
+    }
+}
+
 /// A random arch, wall or stack with a load.
 fn random_scene(random: &mut Random) -> Value {
     let load = |block: &str, random: &mut Random| {

@@ -1,11 +1,11 @@
 //! Load cases: each frame is analysed in every case.
 //!
-//! The forces and the verdict of a frame are those of its worst case. It has the worst verdict; of cases with the same
-//! verdict it has the least load factor, which is always computed for this, and then it is the first. So the worst case does
-//! not depend on what else is asked.
+//! The verdict and the forces of a frame are those of its worst case: the case with the worst verdict. If several cases have
+//! this verdict, it is the one with the least load factor, and then the first. The load factor is always computed for this,
+//! so the worst case does not depend on what else is asked.
 //!
-//! Margins, the placement tolerance, removable blocks and the influence line hold in all cases: [`Answers`] combines those
-//! of each case, and of a position of the vehicle, and names the [`Condition`] that decides each of them.
+//! Margins, the placement tolerance, removable blocks and the influence line must hold in all cases. [`Answers`] combines the
+//! answers of the cases, and of the governing position of the vehicle. It names the [`Condition`] that decides each answer.
 
 use std::sync::Arc;
 

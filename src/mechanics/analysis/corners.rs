@@ -1,8 +1,8 @@
 //! Whether corners that touch decide a verdict.
 //!
 //! A corner that touches an edge or another corner carries no force unless the scene asks for it: in reality it breaks off or
-//! slips. But the common exercise of a ladder at a wall stands only by its corners. So a frame that would stand if more
-//! corners carried force, or stands only because corners do, says so.
+//! slips. But a ladder at a wall, a common exercise, stands only by its corners. So two kinds of frames say so: those that
+//! would stand if more corners carried force, and those that stand only because corners carry force.
 
 use std::sync::Arc;
 
@@ -13,9 +13,9 @@ use crate::mechanics::statics::interface::Interfaces;
 /// In scenes with more blocks, corners are not searched for this.
 const MAX_BLOCKS: usize = 1000;
 
-/// Decides the scene again, in all conditions, with more corners that carry force, or with none, and marks the frames whose
-/// verdict changes. Corners can only help, so with more of them only frames that fall are examined, with none only those
-/// that stand.
+/// Decides the scene again in all conditions: with more corners that carry force, and with none. Marks the frames whose
+/// verdict changes. Corners can only help. So more corners are tried only for frames that fall, and no corners only for
+/// frames that stand.
 pub(super) fn add_corners(analysis: &mut Analysis, options: &Options) {
     let scene = analysis.given().clone();
     if options.verdict_only || scene.blocks.len() > MAX_BLOCKS || scene.lists_contacts() {

@@ -110,6 +110,13 @@ mod tests {
     }
 
     #[test]
+    fn a_number_may_begin_with_a_point() {
+        for (typed, read) in [("kernel=.5", "kernel=0.5"), ("tilt=-.25", "tilt=-0.25"), ("title=.x", "title=\".x\"")] {
+            assert_eq!(typed.parse::<Setting>().expect("a setting").to_string(), read);
+        }
+    }
+
+    #[test]
     fn a_setting_without_effect_is_noted() {
         let (scene, _) = set(&["friction=0.7", "kernel=0.2"]).expect("a scene");
         let notes: Vec<&str> = scene.notes.iter().map(|note| note.message.as_str()).collect();

@@ -80,7 +80,7 @@ fn faces(canvas: &Canvas<'_>, edge: &Edge, structure: PageRect) -> bool {
         && outward.x * off.0 - outward.y * off.1 > 0.0
 }
 
-/// Draws one edge of the ground: a line, and a band of short lines on the side of the ground. The line ends 3 mm beyond the
+/// Draws one edge of the ground: a line, and short strokes inside the ground along it. The line ends 3 mm beyond the
 /// `structure`.
 fn hatched(canvas: &Canvas<'_>, body: BodyId, edge: &Edge, structure: PageRect) -> Vec<Path> {
     let theme = canvas.theme();

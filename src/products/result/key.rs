@@ -178,7 +178,7 @@ const SIDES: &[Key] = &[key("left", Margin, "to this side"), key("right", Margin
 const MOTIONS_TO_SIDES: &[Key] = &[key("left", Motions, "to this side"), key("right", Motions, "to this side")];
 
 /// The number of kinds of margins of the whole frame. The limits of robots are the last kind.
-const OWN: usize = MarginKind::ALL.len() - 1;
+const FRAME_KINDS: usize = MarginKind::ALL.len() - 1;
 
 /// Returns one key for each kind of margin of the whole frame, and then `more` keys. `of` says what the values are:
 /// margins, intervals, exclusions, or motions beyond the margins.
@@ -186,7 +186,7 @@ const fn of_margins<const N: usize>(of: Type, more: &[Key]) -> [Key; N] {
     let mut keys = [key("", Text, ""); N];
     let mut k = 0;
     while k < N {
-        keys[k] = if k < OWN { of_margin(&of, MarginKind::ALL[k]) } else { more[k - OWN] };
+        keys[k] = if k < FRAME_KINDS { of_margin(&of, MarginKind::ALL[k]) } else { more[k - FRAME_KINDS] };
         k += 1;
     }
     keys
@@ -212,7 +212,7 @@ const fn of_margin(of: &Type, kind: MarginKind) -> Key {
 
 /// The keys of the margins of a frame.
 #[rustfmt::skip]
-static MARGINS: [Key; OWN + 5] = of_margins(Margin, &[
+static MARGINS: [Key; FRAME_KINDS + 5] = of_margins(Margin, &[
     key("robots", ByRobot, "least limits of each robot that holds a block; empty if they were not requested").of(&[
         key("fx", Margin, "least limit of this force").unit("N"),
         key("fy", Margin, "least limit of this force").unit("N"),
@@ -230,10 +230,10 @@ const CONDITION: &[Key] = &[
         .when("if the vehicle decides"),
 ];
 
-static CONDITIONS: [Key; OWN] = of_margins(Objects, &[]);
+static CONDITIONS: [Key; FRAME_KINDS] = of_margins(Objects, &[]);
 
 #[rustfmt::skip]
-static INTERVALS: [Key; OWN + 1] = of_margins(Interval, &[
+static INTERVALS: [Key; FRAME_KINDS + 1] = of_margins(Interval, &[
     key("robots", ByRobot, "limits of each robot, each varied alone").when("if requested, with robots that hold blocks").of(&[
         key("fx", Interval, "limit of this force").unit("N"),
         key("fy", Interval, "limit of this force").unit("N"),
@@ -242,7 +242,7 @@ static INTERVALS: [Key; OWN + 1] = of_margins(Interval, &[
 ]);
 
 #[rustfmt::skip]
-static EXCLUDED: [Key; OWN + 1] = of_margins(Exclusions, &[
+static EXCLUDED: [Key; FRAME_KINDS + 1] = of_margins(Exclusions, &[
     key("robots", ByRobot, "they exclude all limits of a robot").when(IF_NO_INTERVAL).of(&[
         key("fx", Exclusions, "they exclude all limits of this force").unit("N").when(IF_NO_INTERVAL),
         key("fy", Exclusions, "they exclude all limits of this force").unit("N").when(IF_NO_INTERVAL),
@@ -251,7 +251,7 @@ static EXCLUDED: [Key; OWN + 1] = of_margins(Exclusions, &[
 ]);
 
 #[rustfmt::skip]
-static MECHANISMS: [Key; OWN + 2] = of_margins(Motions, &[
+static MECHANISMS: [Key; FRAME_KINDS + 2] = of_margins(Motions, &[
     key("robots", ByRobot, "just below the least limits of each robot").of(&[
         key("fx", Motions, "just below this limit"),
         key("fy", Motions, "just below this limit"),

@@ -96,6 +96,20 @@ fn a_ladder_has_a_table_of_the_joints_that_slide_at_its_least_friction() {
 }
 
 #[test]
+fn a_report_names_the_steps_that_fall() {
+    let step = |place: &[&str]| serde_json::json!({ "place": place });
+    let block = |id: &str, x: f64, y: f64| serde_json::json!({ "id": id, "polygon": [[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]], "weight": 1 });
+    let file = serde_json::json!({ "drystone": 1, "ground": [{ "polygon": [[-1, -1], [3, -1], [3, 0], [-1, 0]] }],
+        "blocks": [block("a", 0.0, 0.0), block("b", 0.6, 1.0), block("c", 1.0, 0.0)],
+        "steps": [step(&["a"]), step(&["b"]), step(&["c"])] });
+    let folder = Folder::new(&[("a.json", &file.to_string())]);
+    for (name, words) in [("a.md", "falls in step (b) of 3"), ("a.html", "</span> in step (b) of 3")] {
+        folder.run(&format!("report a.json -o {name}"));
+        assert!(folder.text(name).contains(words), "{}", folder.text(name));
+    }
+}
+
+#[test]
 fn a_sheet_of_many_loads_has_two_pages() {
     let load = |number: usize| format!(r#"{{ "block": "a", "at": [0, {number}e-1], "force": [9{number}, -50] }}"#);
     let loads: Vec<String> = (1..9).map(load).collect();

@@ -118,7 +118,7 @@ fn invalid_scenes_do_not_hide_the_changes_of_the_others() {
     assert_eq!(folder.run(&["a", "--only", "arch"]).code, 0, "the valid scene is accepted");
 }
 
-/// A link to nothing and a file that is too large are one failed entry each.
+/// A link to a missing file is one failed entry, and so is a file that is too large. The comparison goes on.
 #[cfg(unix)]
 #[test]
 fn unreadable_scenes_do_not_hide_the_changes_of_the_others() {

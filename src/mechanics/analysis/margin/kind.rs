@@ -29,7 +29,7 @@ pub enum MarginKind {
     /// without listed loads has no such interval.
     LoadFactor,
     /// The factor on all friction coefficients, at least 0; 1 means the coefficients as given, and smooth interfaces stay
-    /// smooth. Its interval has no upper end. The margin is the lower end; its reciprocal is the factor of safety of
+    /// smooth. Its interval has no upper end. The margin is the lower end. One divided by it is the factor of safety of
     /// geotechnics. A frame without friction has no such interval.
     FrictionFactor,
     /// The limits of every robot that holds a block, each varied alone. The lower ends are the margins.
@@ -39,8 +39,8 @@ pub enum MarginKind {
 /// Returns how a component changes with a parameter, from its change for a value of the parameter.
 type PathOf = fn(&Trial, fn(f64) -> Setting) -> Path<'static>;
 
-/// What distinguishes a kind of margin from the others. A pair of texts belongs to the lower and the upper end of the
-/// interval.
+/// Everything that distinguishes a kind of margin from the others. Of two texts, the first is for the lower end of the
+/// interval, the second for the upper end.
 pub(crate) struct About {
     /// The name in results, and with hyphens.
     pub words: [&'static str; 2],

@@ -72,7 +72,12 @@ impl Search<'_> {
             let case = Case { component: part.component, kind: self.kind, value, outward, mechanism };
             let state = EndState::new(&case).ok_or(NoSensitivity::Unsolved)?;
             let rates = state.states.iter().map(|one| Rates::new(self.context, self.corners, &state.changed, one));
-            let rates: Option<Vec<Rates>> = rates.collect();
+            let mut rates: Option<Vec<Rates>> = rates.collect();
+            if self.kind == MarginKind::FrictionFactor {
+                // The derivatives are per unit of the multiplied coefficient: d(fμ)/dμ = f.
+                let friction = rates.iter_mut().flatten().flat_map(|rates| &mut rates.friction);
+                friction.for_each(|rate| *rate *= value);
+            }
             exact = state.value;
             all.push(rates.ok_or(NoSensitivity::Unsolved)?);
         }

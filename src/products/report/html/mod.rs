@@ -142,7 +142,7 @@ fn verdicts(row: &Row) -> Markup {
         span.verdicts {
             @if let Some(before) = row.before { (verdict(before)) " → " }
             (verdict(row.verdict))
-            (row.steps)
+            @if row.before.is_none() { (row.steps) }
         }
     }
 }

@@ -53,11 +53,7 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
     let mut governing = match found.verdict {
         Verdict::Undecided => Governing::default(),
         Verdict::Unstable => Governing {
-            words: lack(scene, found)
-                .filter(|_| !found.corners_decide)
-                .or_else(|| corners(found))
-                .into_iter()
-                .collect(),
+            words: lack(scene, found).into_iter().chain(corners(found)).collect(),
             mechanism: &found.mechanism,
             ..Governing::default()
         },
@@ -217,9 +213,12 @@ pub(super) fn lack(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<Stri
         return None;
     }
     let margins = frame_analysis.margins.as_ref()?;
-    let loads = margins.of(MarginKind::LoadFactor);
+    let loads = margins.of(MarginKind::LoadFactor).and_then(|interval| load_lack(scene, interval));
+    // What friction cannot hold, corners can.
+    if frame_analysis.corners_decide {
+        return loads;
+    }
     loads
-        .and_then(|interval| load_lack(scene, interval))
         .or_else(|| factor_lack(frame_analysis, margins.of(MarginKind::FrictionFactor)?))
         .or_else(|| friction_lack(frame_analysis, margins.of(MarginKind::Friction)?))
 }
