@@ -23,7 +23,7 @@ PROOF = {"frame": index, "verdict": word, "forces?": FORCES, "motion?": MOTION, 
 CHANGED = {"load_factor?": number, "kernel?": number, "force?": (index, LOAD)}
 ERRORS = {"size": number, "scales?": SPARSE, "pattern?": SPARSE}
 CHANGE = CHANGED | {"gravity?": pair, "friction?": number, "friction_factor?": number}
-CHANGE |= {"grip_limits?": [LIMITS], "errors?": ERRORS}
+CHANGE |= {"grip_limits?": [LIMITS], "errors?": ERRORS, "loads?": [(index, number, [LOAD])]}
 CONTACT = {"bodies": (index, index), "points": [pair], "normal?": pair, "friction": number}
 GRIP = {"robot": word, "body": index, "at": pair, "limits": LIMITS}
 CIRCLE = {"centre": pair, "radius": number}
@@ -67,6 +67,11 @@ def read(path):
     if places:
         raise ValueError(f"{places[0]} is missing, unknown or of another type")
     return file
+
+def with_loads(file, change):
+    """The certificate with the weights and loads of bodies that a change gives them."""
+    other = {k: {"weight": weight, "loads": loads} for k, weight, loads in change.get("loads", [])}
+    return {**file, "bodies": [{**body, **other.get(k, {})} for k, body in enumerate(file["bodies"])]}
 
 def run(check, paths):
     """Whether files are certificates of which everything is proved. A file that is no certificate proves nothing."""

@@ -6,7 +6,7 @@ import sys
 from fractions import Fraction
 from itertools import chain, combinations, product
 from errors import additions, inset, is_valid, pattern
-from shape import run
+from shape import run, with_loads
 from vectors import REST, apart2, cross, dot, left, plus, solve, sub, threes, wrench
 
 TAN_OF_ANGLE = Fraction(1, 100)  # the largest angle between a contact and the edges that it lies at
@@ -135,10 +135,10 @@ def places(file, frame, farthest):
             yield f"contact {k}: its normal is not that of the outlines"
 
 def missing(file, frame):
-    """Yields the pairs of bodies that touch without a contact."""
+    """Yields the pairs of bodies that touch without a contact in a frame that falls."""
     bodies, placed, margin = file["bodies"], frame["placed"], 2 * file["distance"]
     ground = [k for k, body in enumerate(bodies) if body["ground"]]
-    for k, m in chain(product(ground, placed), combinations(placed, 2)):
+    for k, m in chain(product(ground, placed), combinations(placed, 2)) if frame["verdict"] == "unstable" else ():
         one, two = bodies[k], bodies[m]
         if all(a[0] - margin <= b[1] and b[0] - margin <= a[1] for a, b in zip(one["box"], two["box"])):
             own = [c["points"] for c in frame["contacts"] if {*c["bodies"]} == {k, m}]
@@ -162,7 +162,7 @@ def form(file, frame):
     blocks = {k for k, body in enumerate(bodies) if not body["ground"]}
     joins = lambda on, other: on in placed and on != other and (other in placed or bodies[other]["ground"])
     moved = [m["body"] for m in frame["motion"] or []] + [body for own, _ in frame["still"] for body in own]
-    moved += (frame.get("force") or [])[:1]
+    moved += (frame.get("force") or [])[:1] + [k for k, *_ in frame.get("loads", [])]
     points = [(len({*map(tuple, c["points"])}), len(c["points"]), 2 - ("normal" in c)) for c in contacts]
     numbers = [file["distance"], file["shortest"], *(frame.get(key, 0) for key in ("friction", "friction_factor"))]
     numbers += [b["weight"] for b in bodies] + [c["friction"] for c in contacts] + [n or 0 for n in limits_of(frame)]
@@ -186,13 +186,13 @@ def main(file):
     file["bodies"] = [prepare(body) for body in file["bodies"]]
     for entry in file["frames"] + file.get("limits", []):
         word, side, check, proof = checks.get(entry["verdict"], ("undecided", "at", None, None))
-        change, no_proof = entry.get("change", {}), {"forces": None, "motion": None, "still": []}
-        frame = {**frames[entry["frame"]], **no_proof, **change, **entry}
-        gaps = missing(file, frame) if word == "falls" else []
-        faults = form(file, frame) or ([] if file["listed"] else [*places(file, frame, farthest), *gaps])
-        faults = faults or (list(check(file["bodies"], frame)) if frame.get(proof) else ["no proof"])
+        change, just = entry.get("change", {}), "" if "loads" in entry.get("change", {}) else f"just {side} "
+        frame = {**frames[entry["frame"]], "forces": None, "motion": None, "still": [], **change, **entry}
+        own = with_loads(file, change)
+        faults = form(own, frame) or ([] if file["listed"] else [*places(own, frame, farthest), *missing(own, frame)])
+        faults = faults or (list(check(own["bodies"], frame)) if frame.get(proof) else ["no proof"])
         is_exact &= not faults
-        name = f", just {side} {entry['of']} ({json.dumps(change, default=float)})" if change else ""
+        name = f", {just}{entry['of']} ({json.dumps(change, default=float)})" if change else ""
         print(f"frame {entry['frame']}{name}: {word}, {'not proved: ' + '; '.join(faults) if faults else 'exactly'}")
     print("contacts as the scene lists them" if file["listed"] else f"farthest contact point: {max(farthest):.1e} m")
     return is_exact

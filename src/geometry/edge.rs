@@ -55,7 +55,7 @@ pub(super) fn ring_edges(ring: &[Point]) -> impl Iterator<Item = Edge> + '_ {
 ///
 /// The sign is exact for any finite coordinates. Reference: Shewchuk, Adaptive Precision Floating-Point Arithmetic and
 /// Fast Robust Geometric Predicates, 1997.
-pub(super) fn orientation(a: Point, b: Point, c: Point) -> f64 {
+pub(crate) fn orientation(a: Point, b: Point, c: Point) -> f64 {
     let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
     robust::orient2d(coord(a), coord(b), coord(c))
 }

@@ -21,6 +21,8 @@ pub(crate) use box_index::{Aabb, BoxIndex};
 pub use circle::Circle;
 pub use compensated_sum::CompensatedSum;
 pub use edge::Edge;
+#[cfg(feature = "import")]
+pub(crate) use edge::orientation;
 pub(crate) use lattice::boundary;
 pub use lattice::{Cell, CellShape, Lattice, LatticeKind};
 pub(crate) use overlap::in_half_plane;

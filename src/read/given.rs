@@ -130,7 +130,7 @@ pub fn value<T>(
 ) -> Option<T> {
     let parsed = match &node.kind {
         NodeKind::Text(text) => parse(text),
-        NodeKind::Number(_) => parse(r.written(node)),
+        NodeKind::Number(_) => parse(&r.written(node)),
         _ => {
             r.wrong(node, at, Expected::Other("a number or a string"));
             return None;

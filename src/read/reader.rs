@@ -3,6 +3,7 @@
 //! A value that does not fit is reported, with what was expected and what was found, and then treated as absent. Its
 //! path is recorded as unreadable, so that problems that only follow from its absence are not reported.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::mistake::{Cause, Dialect, Expected, Kind, Mistake, Problem, Problems};
@@ -81,9 +82,12 @@ impl<'s> Reader<'s> {
         tree.map_or(&[], |tree| tree.items(list))
     }
 
-    /// Returns the text of a value as it is written.
-    pub fn written(&self, node: &Node<'_>) -> &'s str {
-        self.source.text.get(node.range.clone()).unwrap_or("")
+    /// Returns the text of a value as it is written. A number that does not stand in the text is written here.
+    pub fn written(&self, node: &Node<'_>) -> Cow<'s, str> {
+        match node.kind {
+            NodeKind::Number(number) if node.range.is_empty() => number.to_string().into(),
+            _ => self.source.text.get(node.range.clone()).unwrap_or("").into(),
+        }
     }
 
     /// Adds a mistake of the key or value at the path `at` to the findings. The value still counts as read.
@@ -111,7 +115,7 @@ impl<'s> Reader<'s> {
 
     /// Reports that a value has the wrong type, or is not within the range that `expected` describes.
     pub fn wrong(&mut self, node: &Node<'_>, at: &Trail<'_>, expected: Expected<'_>) {
-        let written = shortened(self.written(node));
+        let written = shortened(&self.written(node));
         let found = match &node.kind {
             NodeKind::Null => "null".into(),
             NodeKind::Flag(flag) => flag.to_string(),
@@ -147,7 +151,7 @@ impl<'s> Reader<'s> {
         match node.kind {
             NodeKind::Number(x) if x.is_finite() => return Some(x),
             NodeKind::Number(x) if x.is_infinite() => {
-                let message = format!("the number {} is too large", shortened(self.written(node)));
+                let message = format!("the number {} is too large", shortened(&self.written(node)));
                 let mistake = Mistake::new(Kind::TooLarge, message, "give a number of at most 1e12");
                 self.report(at, Mark::Value, mistake);
             }

@@ -19,9 +19,9 @@ pub struct Tree<'t> {
     /// The topmost value.
     pub root: Node<'t>,
     /// The entries of all lists.
-    pub(super) items: Vec<Node<'t>>,
+    pub items: Vec<Node<'t>>,
     /// The entries of all objects.
-    pub(super) entries: Vec<Entry<'t>>,
+    pub entries: Vec<Entry<'t>>,
 }
 
 impl<'t> Tree<'t> {
@@ -34,11 +34,40 @@ impl<'t> Tree<'t> {
     pub fn entries(&self, object: &Object) -> &[Entry<'t>] {
         &self.entries[object.0.clone()]
     }
+
+    /// Parses another text and returns its value, which the caller puts somewhere in the tree. The value and its parts
+    /// count as empty ranges of bytes at `home`.
+    pub fn add(&mut self, text: &'t str, home: usize) -> Result<Node<'t>, SyntaxError> {
+        let (items, entries) = (self.items.len(), self.entries.len());
+        let added = self.read(text)?;
+        self.items[items..].iter_mut().for_each(|item| item.range = home..home);
+        for entry in &mut self.entries[entries..] {
+            (entry.name_range, entry.value.range) = (home..home, home..home);
+        }
+        Ok(Node { range: home..home, ..added })
+    }
+
+    /// Parses a text that must contain exactly one JSON value.
+    fn read(&mut self, text: &'t str) -> Result<Node<'t>, SyntaxError> {
+        let mut parser = Parser {
+            text,
+            bytes: text.as_bytes(),
+            at: 0,
+            open: Vec::new(),
+            items: std::mem::take(&mut self.items),
+            entries: std::mem::take(&mut self.entries),
+            loose_items: Vec::new(),
+            loose_entries: Vec::new(),
+        };
+        let root = parser.document();
+        (self.items, self.entries) = (parser.items, parser.entries);
+        root
+    }
 }
 
 /// The range of a list's entries within the entries of all lists.
 #[derive(Clone, Debug, PartialEq)]
-pub struct List(pub(super) Range<usize>);
+pub struct List(pub Range<usize>);
 
 impl List {
     /// Returns the number of entries in the list.
@@ -49,7 +78,7 @@ impl List {
 
 /// The range of an object's entries within the entries of all objects.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Object(pub(super) Range<usize>);
+pub struct Object(pub Range<usize>);
 
 /// A value with its position in the text.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,23 +158,11 @@ pub enum Why {
 
 /// Parses a text that must contain exactly one JSON value.
 pub fn parse(text: &str) -> Result<Tree<'_>, SyntaxError> {
-    let mut reader = Parser {
-        text,
-        bytes: text.as_bytes(),
-        at: 0,
-        open: Vec::new(),
-        items: Vec::with_capacity(text.len() / MIN_BYTES_PER_ITEM),
-        entries: Vec::new(),
-        loose_items: Vec::new(),
-        loose_entries: Vec::new(),
-    };
-    reader.blanks();
-    let root = reader.value()?;
-    reader.blanks();
-    match reader.peek() {
-        None => Ok(Tree { root, items: reader.items, entries: reader.entries }),
-        Some(_) => Err(reader.fault(Why::Behind)),
-    }
+    let root = Node { range: 0..0, kind: NodeKind::Null };
+    let items = Vec::with_capacity(text.len() / MIN_BYTES_PER_ITEM);
+    let mut tree = Tree { root, items, entries: Vec::new() };
+    tree.root = tree.read(text)?;
+    Ok(tree)
 }
 
 /// An estimate of the number of bytes of text for each list entry, used to reserve memory.
@@ -166,6 +183,13 @@ struct Parser<'t> {
 }
 
 impl<'t> Parser<'t> {
+    fn document(&mut self) -> Result<Node<'t>, SyntaxError> {
+        self.blanks();
+        let root = self.value()?;
+        self.blanks();
+        if self.peek().is_some() { Err(self.fault(Why::Behind)) } else { Ok(root) }
+    }
+
     fn peek(&self) -> Option<u8> {
         self.bytes.get(self.at).copied()
     }

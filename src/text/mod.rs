@@ -55,6 +55,42 @@ pub fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 { text.to_string() } else { text.chars().take(37).chain("…".chars()).collect() }
 }
 
+/// Writes a number for a sentence, with one digit and this many more: `0.5`, `12`. Numbers below 0.001 or from a million
+/// on have a power of ten: `1.3×10⁻⁵`. Zeros at the end of the decimals are dropped.
+///
+/// ```
+/// use drystone::internals::text::power_of_ten;
+/// assert_eq!([0.5, 12.34, -1.26e-5, 2e9].map(|x| power_of_ten(x, 1)), ["0.5", "12", "−1.3×10⁻⁵", "2×10⁹"]);
+/// ```
+pub fn power_of_ten(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$e}");
+    let Some((mantissa, exponent)) = text.split_once('e') else { return text };
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if x == 0.0 || (-3..6).contains(&exponent) {
+        return text.parse::<f64>().unwrap_or(x).to_string().replace('-', "−");
+    }
+    let (sign, mantissa) = mantissa.strip_prefix('-').map_or(("", mantissa), |rest| ("−", rest));
+    format!("{sign}{}×10{}", without_zeros(mantissa), superscript(exponent))
+}
+
+/// Writes a whole number in superscript digits: `⁻⁹`.
+pub fn superscript(value: i32) -> String {
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        _ => '⁹',
+    };
+    value.to_string().chars().map(raised).collect()
+}
+
 /// Joins the items into a text such as "a, b or c"; "nothing" if there are no items.
 pub fn choice(items: impl IntoIterator<Item = String>) -> String {
     let items: Vec<String> = items.into_iter().collect();

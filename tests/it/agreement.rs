@@ -61,7 +61,7 @@ fn all_ways_to_get_a_result_agree() {
         assert_eq!(keys.remove("verdict"), Some(check["frames"][0]["verdict"].clone()));
         assert_eq!(&line, check, "scene {number}");
 
-        let scene: SceneFile = serde_json::from_value(file.clone()).expect("a scene file");
+        let scene = SceneFile::from_json(&file.to_string()).expect("a scene file");
         let options = Options::default().margins(true);
         let session = Session::with(scene, options).expect("a sound scene");
         let margins = session.analysis();

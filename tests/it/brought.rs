@@ -217,6 +217,25 @@ fn a_block_model_of_compas_dem_is_read() {
     assert_eq!(verdict(&imported), Verdict::Stable);
 }
 
+#[test]
+fn an_assembly_with_a_block_behind_its_support_is_no_plane_structure() {
+    let element = |x: f64, y: f64, z: f64| {
+        let matrix = json!([[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]);
+        json!({ "data": { "name": "Block", "geometry": { "data": meshed(0.0, 0.0) }, "is_support": z == 0.0,
+            "transformation": { "data": { "matrix": matrix } } } })
+    };
+    let model = |depth: f64| {
+        let model = json!({ "dtype": "compas_dem.models/BlockModel", "data": {
+            "elements": { "f": element(0.0, 0.0, 0.0), "a": element(0.0, depth, 1.0) },
+            "graph": { "node": { "0": { "element": "f" }, "1": { "element": "a" } } } } });
+        model.to_string()
+    };
+    assert_eq!(verdict(&read(&model(0.0), Format::Compas, &Options::default())), Verdict::Stable);
+    let refusal = refused(&model(5.0), Format::Compas, &Options::default());
+    let message = &refusal.problems[0].message;
+    assert!(message.contains("block 1 5 to ") && message.contains("no plane goes through both"), "{message}");
+}
+
 /// Two stones that were drawn by hand, and overlap by 3 of 900 mm; a third overlaps the second by 4 mm.
 const BY_HAND: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="900mm" height="600mm" viewBox="0 0 900 600">
     <path id="a" d="M100 400L400 400L405 300L250 293L98 300Z"/><path id="b" d="M110 301L250 296L400 303L390 200L120 210Z"/>

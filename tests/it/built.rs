@@ -70,7 +70,7 @@ fn every_key_has_a_builder_method() {
         .step(StepEntry::new("two").release(["r", "s"]).remove(["2"]).place(["c"]))
         .step(StepEntry::new("three").plan("s", "2"))
         .silence(NoteCode::FrictionHigh);
-    let file: SceneFile = serde_json::from_value(read.clone()).expect("a scene file");
+    let file = SceneFile::from_json(&read.to_string()).expect("a scene file");
     assert_eq!(made, file);
     let same = |scene: &Scene| format!("{:?}", Analysis::new(scene).frames[2].contacts);
     let (built, read) = (made.build().expect("sound"), Scene::from_json(&read.to_string()).expect("sound"));
@@ -86,7 +86,7 @@ fn cells_and_their_grid_equal_those_of_a_file() {
         .block(BlockEntry::new("d").shape("down").at([0.0, 0.0]));
     let text = r#"{ "drystone": 1, "grid": { "kind": "triangular", "side": 2 }, "ground": [{ "cells": [[0, -1, "up"]] }],
         "blocks": [{ "id": "d", "shape": "down", "at": [0, 0] }] }"#;
-    assert_eq!(Some(&made), serde_json::from_str::<SceneFile>(text).ok().as_ref());
+    assert_eq!(Some(&made), SceneFile::from_json(text).ok().as_ref());
     assert!(made.build().expect("sound").exact());
 }
 
@@ -105,7 +105,7 @@ fn errors_in_code_are_reported_as_in_a_file() {
         let text = case.split_once('\n').expect("a title").1;
         let text = text.split("\n--\n").next().expect("a scene");
         // A value of a wrong type cannot be written in code.
-        let Ok(file) = serde_json::from_str::<SceneFile>(text) else {
+        let Ok(file) = SceneFile::from_json(text) else {
             continue;
         };
         let (read, made) = (Scene::from_json(text), Scene::new(file));

@@ -168,6 +168,23 @@ fn a_ladder_that_stands_only_by_its_corner_says_so() {
 }
 
 #[test]
+fn a_corner_that_just_misses_an_edge_is_noted() {
+    let notices = |gap: f64| {
+        let file = json!({ "drystone": 1, "friction": 0.6, "contact_tolerance": 1e-6,
+            "ground": [{ "id": "floor", "polygon": [[-3, -1], [3.2, -1], [3.2, 0], [-3, 0]] },
+                { "id": "wall", "polygon": [[2.2 + gap, 0], [3.2, 0], [3.2, 6], [2.2 + gap, 6]] }],
+            "blocks": [{ "id": "ladder", "polygon": [[0, 0], [0.12, 0], [2.2, 4.5], [2.1, 4.55]], "weight": 100 }] });
+        Analysis::new(crate::structure::scene(&file)).frames[0].notices.join("; ")
+    };
+    let near = notices(5e-6);
+    for words in ["ladder and wall", "1×10⁻⁶ m", "`--set contact_tolerance=1.00e-5 --set corner_contacts=on_edges`"]
+    {
+        assert!(near.contains(words), "{words}: {near}");
+    }
+    assert!(!notices(0.0).contains("comes near") && !notices(5e-5).contains("comes near"));
+}
+
+#[test]
 fn margins_of_a_bridge_hold_with_its_vehicle_at_the_governing_position() {
     let file: Value = serde_json::from_str(BRIDGE).expect("JSON");
     let analysis = Analysis::with(scene(&file), &asked());

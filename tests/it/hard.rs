@@ -4,7 +4,7 @@
 mod numbers;
 
 use drystone::Analysis;
-use drystone::analysis::{Failure, Proof, Verdict};
+use drystone::analysis::{Failure, MarginKind, MarginKinds, Options, Proof, Verdict};
 use drystone::scene::BodyId;
 use serde_json::{Value, json};
 
@@ -274,5 +274,30 @@ fn no_failure_is_left_out_at_weights_of_sixteen_powers_of_ten() {
     }
     for (block, pull) in scene.blocks().iter().zip(pulls) {
         assert!((pull / block.weight - 1.0).abs() < 1e-6, "{}: {pull} {:?}", block.id, frame.failures);
+    }
+}
+
+#[test]
+fn a_row_of_round_stones_passes_on_a_push_for_ever() {
+    // Each stone turns its push N into friction N at the same joint, so friction below 1 cannot hold the row. The push
+    // that is left shrinks by (1 - μ) / (1 + μ) from stone to stone, far below the weight of a stone.
+    for (friction, count) in
+        [(0.5, 3), (0.5, 6), (0.5, 10), (0.3, 12), (0.5, 12), (0.5, 16), (0.8, 12), (0.5, 20), (0.5, 60)]
+    {
+        let stone =
+            |k: usize| json!({ "id": format!("c{k}"), "circle": { "centre": [k, 0.5], "radius": 0.5 }, "weight": 100 });
+        let file = json!({ "drystone": 1, "friction": friction,
+            "ground": [{ "polygon": rectangle(-2.0, -1.0, count as f64 + 3.0, 1.0) }],
+            "blocks": (0..count).map(stone).collect::<Vec<_>>(),
+            "loads": [{ "block": "c0", "force": [1, 0], "at": [-0.5, 0.5] }] });
+        let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
+        let found = Analysis::with(scene(&file), &options).frames.remove(0);
+        assert_ne!(found.verdict, Verdict::Stable, "{count} stones");
+        let least = found.margins.as_ref().and_then(|margins| margins.least(MarginKind::Friction));
+        assert!(least.is_none_or(|least| (0.995..1.0 + 1e-6).contains(&least)), "{count} stones: {least:?}");
+        assert!(found.verdict == Verdict::Unstable || !found.doubt().is_empty());
+        if count <= 12 && friction < 0.8 {
+            assert!(found.verdict == Verdict::Unstable, "{count} stones: {}", found.doubt());
+        }
     }
 }

@@ -106,7 +106,7 @@ fn geojson_and_wkt_become_scenes_with_their_values() {
     assert_eq!(steps.scene.blocks[0].density, Some(2400.0));
     assert_eq!(steps.scene.ground[0].friction, Some(0.5));
     assert_eq!(steps.scene.robots[0].holds.as_deref(), Some("tread-3"));
-    assert_eq!(steps.snapped[0].body, "tread-2");
+    assert_eq!(steps.snapped[0].body, "tread", "both treads move half-way");
     assert_eq!(verdict(&steps.scene), Verdict::Stable);
     let options = Options::default().scale(2.0);
     let post = read("post.wkt", Format::Wkt, &options);
@@ -128,7 +128,7 @@ fn an_arch_from_a_cad_program_stands() {
     assert_eq!(touching(&imported.scene), 8 + 2 + 2 + 1);
     assert_eq!(verdict(&imported.scene), Verdict::Stable);
     let warned: Vec<&str> = remarks(&imported).iter().map(|r| r.1).collect();
-    assert_eq!(warned, ["the lines do not close to a loop"], "an open spline");
+    assert_eq!(warned, ["it is open", "hatches without a drawn outline become blocks"], "an open spline and a hatch");
     assert!(imported.notes[0].contains("0.001 m, because the drawing states millimetres"));
     // The layer LIMESTONE sets the density. The first voussoir weighs as much as a ninth of the half ring, minus the
     // segments that the chords cut off.
@@ -182,12 +182,8 @@ fn imported_figures_of_this_crate_have_the_same_verdicts() {
         let analysis = Analysis::new(&scene);
         let svg = output::svg::write(&figure::forces(&analysis, &figure::Options::default()));
         let json: Value = serde_json::from_str(&text).expect("JSON");
-        let limits: Vec<Option<LimitsEntry>> = json["robots"]
-            .as_array()
-            .into_iter()
-            .flatten()
-            .map(|r| serde_json::from_value(r["limits"].clone()).ok())
-            .collect();
+        let file = SceneFile::from_json(&text).expect("a scene file");
+        let limits: Vec<Option<LimitsEntry>> = file.robots.into_iter().map(|robot| robot.limits).collect();
         for (number, (frame, found)) in scene.frames().iter().zip(&analysis.frames).enumerate() {
             let first = &scene.blocks()[frame.placed[0].0];
             let options = Options::default().frame(number).scene(

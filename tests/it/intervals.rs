@@ -6,6 +6,7 @@
 //! the first scene.
 
 use drystone::analysis::{End, Interval, MarginKind, MarginKinds, Margins, Options};
+use drystone::scene::format::SceneFile;
 use drystone::session::Session;
 use drystone::{Analysis, Scene};
 use rayon::prelude::*;
@@ -275,7 +276,7 @@ fn analysed_scene(number: u64) -> Margins {
 fn a_session_has_the_margins_of_the_scene() {
     for number in 0..12 {
         let file = random_scene(number).to_string();
-        let session = Session::new(serde_json::from_str(&file).expect("a scene file")).expect("sound");
+        let session = Session::new(SceneFile::from_json(&file).expect("a scene file")).expect("sound");
         let margins = session.margins(MarginKinds::ALL).expect("one frame");
         let scene = Scene::from_json(&file).expect("sound");
         let json = |margins: &Margins| drystone::result::margins_json(&scene, margins);

@@ -6,6 +6,7 @@ use drystone::{Analysis, Scene, figure, figure::Kind, output};
 use serde_json::{Value, json};
 
 use crate::random::Random;
+use crate::structure::rectangle;
 
 fn scene(file: Value) -> Scene {
     Scene::from_json(&file.to_string()).expect("a valid scene")
@@ -430,4 +431,50 @@ fn random_walls_under_pressure_have_the_load_factors_of_sums_over_their_joints()
         compared += 1;
     }
     assert!(compared > 150, "{compared}");
+}
+
+#[test]
+fn densities_and_unit_weights_may_have_units() {
+    let file = |density: Value, unit_weight: Value, units: Value| {
+        json!({ "drystone": 1, "units": units, "friction": 0.6,
+            "ground": [{ "polygon": rectangle(-1.0, -1.0, 6.0, 1.0) }],
+            "blocks": [{ "id": "w", "polygon": rectangle(0.0, 0.0, 4.0, 6.0), "density": density }],
+            "loads": [{ "block": "w", "side": "left", "pressure": { "surface": 4, "unit_weight": unit_weight } }] })
+    };
+    let feet = json!({ "length": "ft", "force": "lbf" });
+    let cubic_foot = 0.3048_f64 * 0.3048 * 0.3048;
+    let numbers = scene(file(json!(150.0 * 0.453_592_37 / cubic_foot), json!(62.4 / cubic_foot), feet.clone()));
+    for (density, weight) in [("150 lb/ft3", "62.4 lbf/ft3"), ("150lb/ft³", "62.4 lbf/ft^3")] {
+        let texts = scene(file(json!(density), json!(weight), feet.clone()));
+        assert!((texts.blocks()[0].weight / numbers.blocks()[0].weight - 1.0).abs() < 1e-12);
+        assert!((texts.loads()[0].force.x / numbers.loads()[0].force.x - 1.0).abs() < 1e-12);
+    }
+    let plain = scene(file(json!("2.4 t/m3"), json!("9.81 kN/m3"), json!({})));
+    assert!((plain.blocks()[0].weight - 2400.0 * 24.0 * 9.81).abs() < 1e-6);
+    assert!((plain.loads()[0].force.x - 9810.0 * 8.0).abs() < 1e-6, "{:?}", plain.loads()[0]);
+    for wrong in ["9 stones/m3", "9 kg/m2", "kg/m3", "9 kN", "1e999 kg/m3"] {
+        let text = file(json!(wrong), json!(9810), json!({})).to_string();
+        let problems = drystone::Scene::from_json(&text).expect_err("not a density").to_string();
+        assert!(problems.contains("such as \"18 kN/m3\""), "{problems}");
+    }
+}
+
+#[test]
+fn listed_contacts_name_parts_of_the_ground() {
+    let file = |left: &str, right: &str| {
+        json!({ "drystone": 1, "friction": 0.5,
+            "ground": [{ "id": "A", "polygon": rectangle(0.0, -1.0, 1.0, 1.0) },
+                { "id": "B", "polygon": rectangle(3.0, -1.0, 1.0, 1.0) }],
+            "blocks": [{ "id": "w", "polygon": rectangle(0.0, 0.0, 4.0, 1.0) }],
+            "contacts": [{ "bodies": ["w", left], "at": [0.5, 0], "normal": 90 },
+                { "bodies": [right, "w"], "at": [3.5, 0], "normal": -90 }] })
+    };
+    for (left, right) in [("A", "B"), ("ground", "ground")] {
+        let frame = crate::structure::first(&file(left, right));
+        let parts: Vec<_> = frame.contacts.iter().map(|contact| contact.interface.bodies[1]).collect();
+        assert_eq!(parts, [0, 1].map(drystone::scene::BodyId::Ground));
+        assert_eq!(frame.verdict, drystone::analysis::Verdict::Stable);
+    }
+    let problems = drystone::Scene::from_json(&file("A", "C").to_string()).expect_err("no body C").to_string();
+    assert!(problems.contains('C'), "{problems}");
 }

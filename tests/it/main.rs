@@ -22,6 +22,7 @@ mod column;
 mod conditions;
 mod costly;
 mod edge;
+mod drawings;
 mod falls;
 mod features;
 mod freebody;

@@ -145,3 +145,14 @@ fn cracks_agree_with_the_movement_and_open_no_joint_that_presses() {
     let down = found.motions.iter().map(|m| -m.velocity.y * scene.blocks()[m.block.0].weight).sum::<f64>();
     assert!((down * found.unit - found.work).abs() < 1e-6 * frame.weight * found.unit, "{down} {}", found.work);
 }
+
+#[test]
+fn blocks_on_a_split_floor_follow_it() {
+    let file = json!({ "drystone": 1, "friction": 0.5,
+        "ground": [{ "id": "G0", "polygon": rectangle(-2.0, -2.0, 4.5, 2.0) },
+            { "id": "G1", "polygon": rectangle(2.5, -2.0, 9.5, 2.0) }],
+        "blocks": [{ "polygon": rectangle(0.0, 0.0, 5.0, 1.96875) }, { "polygon": rectangle(5.0, 0.0, 5.0, 1.3125) }],
+        "movements": [{ "ground": "G1", "translation": [0.01, -0.014574604732] }] });
+    let cracked = cracked(&scene(&file));
+    assert!(cracked.force.x == 0.0 && cracked.force.y < 0.0 && !cracked.cracks.is_empty(), "{cracked:?}");
+}

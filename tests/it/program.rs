@@ -8,6 +8,7 @@ mod check;
 mod contacts;
 mod fault;
 mod figures;
+mod headlines;
 mod import;
 mod mistakes;
 mod readme;

@@ -152,3 +152,13 @@ fn json_table_report_and_figure_say_which_blocks_may_leave() {
     let scene = Scene::from_json(&file.to_string()).expect("a scene");
     assert!(Analysis::new(&scene).frames[0].removable.is_none());
 }
+
+#[test]
+fn the_torque_of_a_robot_does_not_count_as_standing_without_it() {
+    // The centre is 0.5 m outside the ground. A torque of 50 N m holds the block; a force at its centre must be 100 N.
+    let mut file = on_floor(0.6, vec![block("a", rectangle(1.0, 0.0, 3.0, 1.0), 100.0)]);
+    file["ground"] = json!([{ "polygon": rectangle(0.0, -1.0, 2.0, 1.0) }]);
+    file["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "force": 20, "torque": 60 } }]);
+    let force = rows(&file)[0].force.expect("a force");
+    assert!((force - 100.0).abs() < 1e-5, "{force}");
+}

@@ -2,7 +2,7 @@
 //! those of a complete analysis.
 
 use drystone::analysis::{Accuracy, Options, Source, Verdict, verdicts};
-use drystone::scene::format::SceneFile;
+use drystone::scene::format::{BlockEntry, SceneFile};
 use drystone::session::Session;
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
@@ -12,7 +12,11 @@ use crate::random::Random;
 use crate::structure::{arch, harmonic, on_slope, rectangle, scene, wall};
 
 fn file(value: &Value) -> SceneFile {
-    serde_json::from_value(value.clone()).unwrap()
+    SceneFile::from_json(&value.to_string()).unwrap()
+}
+
+fn entry(block: &Value) -> BlockEntry {
+    file(&json!({ "drystone": 1, "blocks": [block] })).blocks.remove(0)
 }
 
 /// The state of the session as a scene file, which is analysed from scratch.
@@ -75,7 +79,7 @@ fn played(number: u64, base: Value, candidate: impl Fn(&mut Random, usize) -> Va
                 let id = format!("b{step}");
                 block["id"] = json!(id);
                 copy.blocks().push(block.clone());
-                let outcome = session.place(serde_json::from_value(block).unwrap());
+                let outcome = session.place(entry(&block));
                 if outcome.is_err() {
                     assert!(copy.verdict().is_err(), "only the session refuses: {outcome:?}");
                     copy.blocks().pop();
@@ -198,7 +202,7 @@ fn an_invalid_block_is_refused_and_changes_nothing() {
         (json!({ "id": "a", "cells": [[0, 1]] }), "block a"),
         (json!({ "cells": [[0, 1]], "weight": -1 }), "-1"),
     ] {
-        let refused = session.place(serde_json::from_value(wrong).unwrap());
+        let refused = session.place(entry(&wrong));
         let refused = refused.expect_err(message).to_string();
         assert!(refused.contains(message), "{refused}");
         assert_eq!((session.verdict(), session.scene().blocks().len()), (Verdict::Stable, 1));
@@ -208,7 +212,7 @@ fn an_invalid_block_is_refused_and_changes_nothing() {
         "steps": [{ "place": ["a"] }] });
     assert!(Session::new(file(&stepped)).is_err());
     // A block without an id has the least free number.
-    session.place(serde_json::from_value(json!({ "cells": [[0, 1]] })).unwrap()).unwrap();
+    session.place(entry(&json!({ "cells": [[0, 1]] }))).unwrap();
     assert_eq!(session.scene().blocks()[1].id, "1");
     assert_eq!(session.analysis().verdict(), Verdict::Stable);
 }

@@ -59,10 +59,10 @@ pub(crate) struct Check {
 
 impl Check {
     pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
-        source::note_foreign_files(&self.scenes, terminal)?;
+        let files = source::files(&self.scenes)?.noted(terminal);
         let reading = Progress::begin(1, terminal.shows_progress());
         reading.doing("reading");
-        let outcomes = source::read_each(&self.scenes, self.what.frame, &self.what.level)?;
+        let outcomes = source::read_each(files, self.what.frame, &self.what.level)?;
         drop(reading);
         // For a single file, the JSON may have several lines. For several files, each file gets one line of JSON.
         let layout = if outcomes.len() == 1 { Layout::Lines } else { Layout::OneLine };
@@ -169,10 +169,6 @@ impl Check {
         }
         let mut analysis = self.what.analysed(source.scene.clone(), &options);
         if let Some(output) = &self.certificate {
-            if !source.scene.cases().is_empty() {
-                let why = "--certificate writes no load cases; write each case as a scene of its own".to_owned();
-                return Err(CliError::CommandLine(why));
-            }
             verify::write(&mut analysis, &source.path, output, detail.margins, options.deadline)?;
         }
         let timing = if self.no_timing { Timing::LeftOut } else { Timing::Included };

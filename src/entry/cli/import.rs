@@ -18,7 +18,7 @@ use crate::products::result::import_json;
 use crate::products::wording::number::quantity;
 use crate::read::file::ending;
 use crate::sources::import::{self, Format, Imported, Options, Remark, STONES, Stone};
-use crate::text::{Word, typed_word};
+use crate::text::{Word, shell, typed_word};
 
 /// At most this many bodies whose corners were moved are listed; `--json` lists all.
 const MAX_LISTED_BODIES: usize = 12;
@@ -36,9 +36,10 @@ const MAX_LISTED_BODIES: usize = 12;
 #[derive(Debug, Args)]
 #[command(allow_negative_numbers = true)]
 pub(crate) struct Import {
-    /// The drawing: .svg, .dxf, .geojson, .json, .wkt, .csv or a figure as .png or .pdf; - reads standard input
-    #[arg(value_name = "DRAWING")]
-    drawing: PathBuf,
+    /// The drawing: .svg, .dxf, .geojson, .geojsonl, .json, .wkt, .csv or a figure as .png or .pdf; - reads standard input.
+    /// Bodies and contacts in two .csv files are read together
+    #[arg(value_name = "DRAWING", required = true)]
+    drawings: Vec<PathBuf>,
     /// The scene file to write; - or nothing prints the scene
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -54,6 +55,9 @@ pub(crate) struct Import {
     /// Unit of the drawing's coordinates [default: the unit that the drawing states, else m]
     #[arg(long, value_name = "UNIT", value_enum)]
     unit: Option<Unit>,
+    /// Pixels per inch of a drawing in pixels; it implies --unit px [default: 96]
+    #[arg(long, value_name = "N", value_parser = dpi)]
+    dpi: Option<f64>,
     /// What is ground: a layer or element by its name, a body by its number or by a point X,Y in it, or below:Y for all
     /// bodies below a height, in the unit of the drawing with y up; may be given several times [default: names that
     /// begin with ground]
@@ -111,6 +115,9 @@ pub(crate) struct Import {
     /// Print the log of the import as JSON; the scene then needs a file (-o)
     #[arg(long, requires = "output")]
     json: bool,
+    /// The words of the command line, for remedies.
+    #[arg(skip)]
+    pub(crate) words: Vec<String>,
 }
 
 impl Import {
@@ -118,21 +125,31 @@ impl Import {
         let file = destination::file(self.output.as_ref());
         self.check_options(file)?;
 
-        let name = source::name(&self.drawing);
-        let (format, bytes) = (self.format(), source::bytes(&self.drawing));
+        let name = self.drawings.iter().map(|path| source::name(path)).collect::<Vec<String>>().join(" and ");
+        let (format, bytes) = (self.format(), source::bytes(self.drawing()));
         if let Ok(bytes) = &bytes
             && (self.source || is_picture(bytes))
         {
             return Ok(self.bring_back(terminal, file, bytes)?);
         }
         let format = format?;
-        let text = text(bytes?, &name, format)?;
-        // A .json file may have one of three formats. Its content decides which.
-        let format = match (self.format, format) {
-            (None, Format::GeoJson) => Format::of_json(&text),
-            _ => format,
+        let imported = if let [_] = self.drawings.as_slice() {
+            // The content of a .json file, and of a file with another ending, decides on its format.
+            let text = text(bytes?, &name, format)?;
+            let format = match (self.format, format) {
+                (None, Some(Format::GeoJson)) => Format::of_json(&text),
+                (_, Some(format)) => format,
+                (_, None) => Format::of_text(&text).ok_or_else(|| self.unknown_format())?,
+            };
+            import::import(&text, format, &self.options())
+        } else {
+            let read =
+                |path: &PathBuf| Ok((source::name(path), text(source::bytes(path)?, &source::name(path), None)?));
+            let files = self.drawings.iter().map(read).collect::<Result<Vec<(String, String)>, CliError>>()?;
+            let files: Vec<(&str, &str)> = files.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+            import::import_files(&files, &self.options())
         };
-        let imported = match import::import(&text, format, &self.options()) {
+        let imported = match imported {
             Ok(imported) => imported,
             Err(refusal) => {
                 for remark in &refusal.remarks {
@@ -143,10 +160,13 @@ impl Import {
                 terminal.notes(&page);
                 let mut problems = refusal.problems;
                 if let Some(scene) = refusal.overlapping.filter(|_| !self.strict) {
-                    destination::deliver(terminal, file, scene.to_json().into_bytes(), self.force)?;
+                    self.deliver(terminal, file, scene.to_json().into_bytes())?;
                     if let (Some(path), Some(last)) = (file, problems.last_mut()) {
                         let path = path.display();
                         last.help += &format!("; drystone render --broken {path} -o overlaps.svg shows what overlaps");
+                        if !self.force {
+                            last.help += &format!("; another import replaces it: {} --force", self.command());
+                        }
                     }
                 }
                 return Err(refused(&name, &problems));
@@ -155,7 +175,7 @@ impl Import {
         if self.strict && !imported.remarks.is_empty() {
             return Err(refused(&name, &imported.remarks));
         }
-        destination::deliver(terminal, file, imported.scene.to_json().into_bytes(), self.force)?;
+        self.deliver(terminal, file, imported.scene.to_json().into_bytes())?;
         self.print_summary(terminal, &name, &imported);
         if self.json {
             let json = import_json(&imported);
@@ -170,7 +190,7 @@ impl Import {
             let why = "the scene file in a picture stays as it is; give no option but -o and --force";
             return Err(CliError::from(why));
         }
-        destination::deliver(terminal, file, source::carried(&self.drawing, picture)?, self.force)?;
+        destination::deliver(terminal, file, source::carried(self.drawing(), picture)?, self.force)?;
         Ok(ExitStatus::Done)
     }
 
@@ -184,9 +204,17 @@ impl Import {
             return Err(format!("{} is a folder; name the scene file in it", file.display()).into());
         }
         if let Some(file) = file {
-            destination::refuse_overwrites(&[file.to_owned()], &[&self.drawing])?;
+            destination::refuse_overwrites(
+                &[file.to_owned()],
+                &self.drawings.iter().map(PathBuf::as_path).collect::<Vec<_>>(),
+            )?;
         }
-        if let (Some(ScaleArg::Metres(metres)), Some(_)) = (self.scale, self.unit) {
+        if let (Some(unit), Some(_)) = (self.unit.filter(|unit| *unit != Unit::Px), self.dpi) {
+            return Err(format!("--dpi is the size of a pixel, and --unit {unit:?} needs none; leave one of them out")
+                .to_lowercase()
+                .into());
+        }
+        if let (Some(ScaleArg::Metres(metres)), Some(_)) = (self.scale, self.unit()) {
             return Err(format!(
                 "--scale {metres} is already in metres per unit, so --unit has no effect; leave one of them out, or give the scale as 1:50"
             ).into());
@@ -194,36 +222,71 @@ impl Import {
         Ok(())
     }
 
-    fn format(&self) -> Result<Format, CliError> {
-        if let Some(format) = self.format {
-            return Ok(format);
+    fn drawing(&self) -> &Path {
+        self.drawings.first().map_or(Path::new(""), PathBuf::as_path)
+    }
+
+    /// Writes the scene. If the file exists, the error names the command that replaces it.
+    fn deliver(&self, terminal: &Terminal, file: Option<&Path>, bytes: Vec<u8>) -> Result<(), CliError> {
+        let exists = !self.force && file.is_some_and(Path::exists);
+        destination::deliver(terminal, file, bytes, self.force).map_err(|error| match error {
+            CliError::NotWritten { what, why } if exists => {
+                CliError::NotWritten { what, why: format!("{why}: {} --force", self.command()) }
+            }
+            error => error,
+        })
+    }
+
+    /// Returns the command as it was typed.
+    fn command(&self) -> String {
+        let quoted = |word: &String| {
+            let (dashes, rest) = word.split_at(word.len() - word.trim_start_matches('-').len());
+            if rest.is_empty() { word.clone() } else { format!("{dashes}{}", shell(rest)) }
+        };
+        self.words.iter().map(quoted).collect::<Vec<_>>().join(" ")
+    }
+
+    fn unit(&self) -> Option<Unit> {
+        self.unit.or(self.dpi.map(|_| Unit::Px))
+    }
+
+    /// Returns the format that an option or the ending of the name gives; `None` if the content decides.
+    fn format(&self) -> Result<Option<Format>, CliError> {
+        if self.format.is_some() {
+            return Ok(self.format);
         }
-        match ending(&self.drawing).as_str() {
-            "svg" => Ok(Format::Svg),
-            "dxf" => Ok(Format::Dxf),
-            "geojson" | "json" => Ok(Format::GeoJson),
-            "wkt" => Ok(Format::Wkt),
-            "csv" => Ok(Format::Contacts),
+        match ending(self.drawing()).as_str() {
+            "svg" => Ok(Some(Format::Svg)),
+            "dxf" => Ok(Some(Format::Dxf)),
+            "geojson" | "geojsonl" | "geojsons" | "jsonl" | "ndjson" | "json" => Ok(Some(Format::GeoJson)),
+            "wkt" => Ok(Some(Format::Wkt)),
+            "csv" => Ok(Some(Format::Contacts)),
             "svgz" => Err(format!(
                 "{} is compressed; unpack it first: gunzip -c drawing.svgz > drawing.svg",
-                self.drawing.display()
-            ).into()),
+                self.drawing().display()
+            )
+            .into()),
             "dwg" => Err(format!(
                 "{} is a DWG file, which only CAD programs read; save it there as DXF",
-                self.drawing.display()
-            ).into()),
-            _ => Err(format!(
-                "the file name {} does not show the format of the drawing; give --format svg, dxf, geojson, wkt, contacts or compas",
-                self.drawing.display()
-            ).into()),
+                self.drawing().display()
+            )
+            .into()),
+            _ => Ok(None),
         }
+    }
+
+    fn unknown_format(&self) -> CliError {
+        let formats = crate::text::choice(Format::all().into_iter().map(|format| format.word().to_owned()));
+        let shown = self.drawing().display();
+        format!("neither the name {shown} nor its content shows the format of the drawing; give --format {formats}")
+            .into()
     }
 
     fn options(&self) -> Options {
         Options {
             scale: match (self.scale, self.unit) {
                 (Some(ScaleArg::Metres(metres)), _) => Some(metres),
-                (_, unit) => unit.map(Unit::metres),
+                _ => self.unit().map(|unit| unit.metres(self.dpi.unwrap_or(96.0))),
             },
             ratio: match self.scale {
                 Some(ScaleArg::Ratio(ratio)) => Some(ratio),
@@ -288,14 +351,28 @@ impl Import {
             let most = quantity(most, "m");
             page.line(&format!("  snapped {more} more; the largest move of all is {most}; --json lists them"));
         }
+        if !imported.left_out.is_empty() {
+            let what = imported.left_out.iter().map(|(what, n)| count(*n, what, &plural(what)));
+            let what = what.collect::<Vec<_>>().join(", ");
+            page.line(&format!("{}; left out: {what}", count(scene.blocks.len(), "block", "blocks")));
+        }
         terminal.notes(&page);
     }
 }
 
-fn text(bytes: Vec<u8>, name: &str, format: Format) -> Result<String, CliError> {
+/// Returns the plural of a noun for what is left out.
+fn plural(noun: &str) -> String {
+    match noun.strip_suffix('y') {
+        Some(stem) => format!("{stem}ies"),
+        None if noun.ends_with("ch") => format!("{noun}es"),
+        None => format!("{noun}s"),
+    }
+}
+
+fn text(bytes: Vec<u8>, name: &str, format: Option<Format>) -> Result<String, CliError> {
     // Old DXF files have one byte per character. Only names in them can contain non-ASCII characters. So these files are
     // read as Latin-1, even if some letters of names are then wrong.
-    if format == Format::Dxf && std::str::from_utf8(&bytes).is_err() {
+    if format == Some(Format::Dxf) && std::str::from_utf8(&bytes).is_err() {
         return Ok(bytes.into_iter().map(char::from).collect());
     }
     String::from_utf8(bytes).map_err(|error| {
@@ -340,7 +417,7 @@ fn scene_notes(imported: &Imported) -> Vec<String> {
 
 impl Word for Format {
     fn all() -> Vec<Format> {
-        vec![Format::Svg, Format::Dxf, Format::GeoJson, Format::Wkt, Format::Contacts, Format::Compas]
+        vec![Format::Svg, Format::Dxf, Format::GeoJson, Format::Wkt, Format::Contacts, Format::Boxes, Format::Compas]
     }
 
     fn word(self) -> &'static str {
@@ -350,6 +427,7 @@ impl Word for Format {
             Format::GeoJson => "geojson",
             Format::Wkt => "wkt",
             Format::Contacts => "contacts",
+            Format::Boxes => "boxes",
             Format::Compas => "compas",
         }
     }
@@ -363,17 +441,21 @@ enum Unit {
     M,
     In,
     Ft,
+    Pt,
+    Px,
 }
 
 impl Unit {
-    /// Returns the length of the unit in metres.
-    fn metres(self) -> f64 {
+    /// Returns the length of the unit in metres. `dpi` is the number of pixels in an inch.
+    fn metres(self, dpi: f64) -> f64 {
         match self {
             Unit::Mm => 1e-3,
             Unit::Cm => 1e-2,
             Unit::M => 1.0,
             Unit::In => 0.0254,
             Unit::Ft => 0.3048,
+            Unit::Pt => 0.0254 / 72.0,
+            Unit::Px => 0.0254 / dpi,
         }
     }
 }
@@ -406,6 +488,12 @@ fn scale(typed: &str) -> Result<ScaleArg, String> {
         },
         None => number(typed).map(ScaleArg::Metres).ok_or_else(wrong),
     }
+}
+
+/// Parses a number of pixels per inch.
+fn dpi(typed: &str) -> Result<f64, String> {
+    let number = typed.trim().parse::<f64>().ok().filter(|n| n.is_finite() && *n > 0.0);
+    number.ok_or_else(|| "give the number of pixels in an inch, such as 96 or 300".to_owned())
 }
 
 /// Parses gravity in m/s²: `9.81` acts downwards, and `0,-9.81` gives both components.

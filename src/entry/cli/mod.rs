@@ -125,9 +125,16 @@ pub fn run() -> ExitCode {
 
 /// Runs a command line, whose first word is the name of the program, and returns the exit code.
 pub fn run_with(words: impl Iterator<Item = OsString>) -> u8 {
-    let given = CommandLine::command().try_get_matches_from(join_list(words));
+    let words: Vec<OsString> = words.collect();
+    let given = CommandLine::command().try_get_matches_from(join_list(words.clone().into_iter()));
     let (line, limit) = match given.and_then(|given| Ok((CommandLine::from_arg_matches(&given)?, time_limit(&given)))) {
-        Ok(read) => read,
+        Ok((mut line, limit)) => {
+            if let Command::Import(import) = &mut line.command {
+                let typed = words.iter().skip(1).map(|word| word.to_string_lossy().into());
+                import.words = ["drystone".to_owned()].into_iter().chain(typed).collect();
+            }
+            (line, limit)
+        }
         Err(error) => {
             let printed = error.print().and_then(|()| io::stdout().flush());
             return refused(&error, printed).number();

@@ -11,22 +11,22 @@ use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::AnalysisArgs;
 use crate::mechanics::analysis::Verdict;
-use crate::mechanics::scene::format::{SceneFile, parsed};
+use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::session::{PlanError, plan};
 
 /// Find an order of placing all blocks such that every step stands while robots hold single blocks
 ///
 /// Writes the scene with these steps. Draw them with drystone render --kind build. The scene's own steps are left out.
-/// Each robot holds one block at its centroid, with the limits of the first robot of the scene, or with any force.
-/// Whether a block fits between the others on its way is not tested.
+/// The robots of the scene hold one block each, at its centroid, within their limits. A robot may release a block and
+/// hold another one in the same step. Whether a block fits between the others on its way is not tested.
 #[derive(Debug, Args)]
 pub(crate) struct Plan {
     /// The scene; - reads standard input
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// How many robots may hold a block at the same time
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u8).range(0..=16))]
-    robots: u8,
+    /// How many robots without limits of force build a scene that has no robots [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=16))]
+    robots: Option<u8>,
     /// The file to write; - or nothing prints the scene
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -45,12 +45,14 @@ impl Plan {
         }
         let source = source::read_one(&self.scene, &self.level)?;
         let name = source.name();
-        let mut file: SceneFile = parsed(&source.text()).map_err(|error| CliError::not_read(&name, error))?;
+        let mut file = SceneFile::from_json(&source.text())
+            .map_err(|problems| CliError::Scene { name: name.clone(), problems })?;
         file.tolerate(self.level.contact_tolerance);
         let options = self.level.options();
-        let planned = match source::isolated(&self.scene, || plan(file, usize::from(self.robots), &options))? {
+        let planned = match source::isolated(&self.scene, || plan(file, self.robots.map(usize::from), &options))? {
             Ok(planned) => planned,
             Err(PlanError::SceneError(problems)) => return Err(CliError::Scene { name, problems }.into()),
+            Err(why @ PlanError::Robots(_)) => return Err(CliError::from(format!("{name}: {why}")).into()),
             Err(why) => {
                 terminal.note(&format!("{name}: {why}"));
                 let is_proved =

@@ -81,7 +81,7 @@ impl Render {
         if !self.watch {
             return self.once(terminal);
         }
-        let scenes = source::files(&self.scenes)?;
+        let scenes = source::files(&self.scenes)?.scenes;
         if scenes.iter().any(|file| file == Path::new("-")) {
             return Err(vec!["--watch needs files; standard input (-) cannot be read again".into()]);
         }
@@ -110,23 +110,22 @@ impl Render {
         let destination = Destination::from_path(self.output.as_deref().unwrap_or(Path::new("-")));
         let format = destination.format(self.draw.picture.requested_format())?;
         self.draw.check(format)?;
-        let scenes = source::files(&self.scenes)?;
-        source::note_foreign_files(&self.scenes, terminal)?;
+        let scenes = source::files(&self.scenes)?.noted(terminal);
         self.check_count(&scenes, &destination, format, terminal)?;
         self.check_parts(&destination)?;
         let fonts = self.draw.picture.fonts()?;
         if self.broken {
             return self.sketched(&scenes, &destination, format, &fonts, terminal);
         }
-        let (options, (sources, mut faults)) =
-            match (self.draw.options(), source::read_apart_from_faults(&scenes, self.frame, &self.draw.figure.level)) {
-                (Ok(options), Ok(sources)) => (options, sources),
-                (options, sources) => {
-                    let scenes = sources.err().into_iter().flatten();
-                    return Err(options.err().into_iter().chain(scenes).collect());
-                }
-            };
         let joins = self.joins(scenes.len(), &destination);
+        let read = source::read_apart_from_faults(scenes, self.frame, &self.draw.figure.level);
+        let (options, (sources, mut faults)) = match (self.draw.options(), read) {
+            (Ok(options), Ok(sources)) => (options, sources),
+            (options, sources) => {
+                let scenes = sources.err().into_iter().flatten();
+                return Err(options.err().into_iter().chain(scenes).collect());
+            }
+        };
         if sources.is_empty() || (joins && !faults.is_empty()) {
             return Err(faults);
         }

@@ -58,7 +58,7 @@ pub(crate) fn read(
     frame: Option<FrameChoice>,
     level: &AnalysisArgs,
 ) -> Result<Vec<Source>, Vec<CliError>> {
-    match read_apart_from_faults(paths, frame, level)? {
+    match read_apart_from_faults(files(paths)?.scenes, frame, level)? {
         (sources, faults) if faults.is_empty() => Ok(sources),
         (_, faults) => Err(faults),
     }
@@ -67,13 +67,13 @@ pub(crate) fn read(
 /// Reads all scenes. Returns the scenes, and separately the errors of files on which the program itself failed. If any
 /// file has another error, returns the errors of all files instead.
 pub(crate) fn read_apart_from_faults(
-    paths: &[PathBuf],
+    files: Vec<PathBuf>,
     frame: Option<FrameChoice>,
     level: &AnalysisArgs,
 ) -> Result<(Vec<Source>, Vec<CliError>), Vec<CliError>> {
     let mut sources = Vec::new();
     let mut complaints = Vec::new();
-    for (_, source) in read_each(paths, frame, level)? {
+    for (_, source) in read_each(files, frame, level)? {
         match source {
             Ok(source) => sources.push(source),
             Err(complaint) => complaints.push(complaint),
@@ -85,16 +85,14 @@ pub(crate) fn read_apart_from_faults(
 /// A path, and the scene that was read from it or the error.
 pub(crate) type ReadResult = (PathBuf, Result<Source, CliError>);
 
-/// Reads all scenes, and returns a scene or an error for each file. The files are in the order of `paths`, and the
-/// files of a folder in the order of their names. Returns a single error if a folder cannot be read or has no `.json`
-/// file, or if `paths` contains standard input twice.
+/// Reads all scenes, and returns a scene or an error for each file. Returns a single error if `files` contains standard
+/// input twice.
 pub(crate) fn read_each(
-    paths: &[PathBuf],
+    files: Vec<PathBuf>,
     frame: Option<FrameChoice>,
     level: &AnalysisArgs,
 ) -> Result<Vec<ReadResult>, CliError> {
-    let paths = files(paths)?;
-    if paths.iter().filter(|p| *p == Path::new("-")).count() > 1 {
+    if files.iter().filter(|p| *p == Path::new("-")).count() > 1 {
         return Err(CliError::CommandLine("standard input (-) can be read only once".into()));
     }
     let outcome = |path: PathBuf| {
@@ -106,21 +104,52 @@ pub(crate) fn read_each(
         });
         (path, source)
     };
-    Ok(paths.into_iter().map(outcome).collect())
+    Ok(files.into_iter().map(outcome).collect())
 }
 
-/// Replaces each folder by the scene files in it, sorted by name. Subfolders are not read. Returns an error if a folder
-/// has no scene file.
-pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
-    Ok(sorted(paths)?.0)
+/// The files that a command reads.
+#[derive(Default)]
+pub(crate) struct Files {
+    /// The scene files, in the order of the paths, and those of a folder in the order of their names.
+    pub(crate) scenes: Vec<PathBuf>,
+    /// The `.json` files in folders that are no scenes, because they have no key `drystone`.
+    foreign: Vec<PathBuf>,
 }
 
-/// Names the `.json` files in the folders among `paths` that are no scenes, because they have no key `drystone`.
-pub(crate) fn note_foreign_files(paths: &[PathBuf], terminal: &Terminal) -> Result<(), CliError> {
-    for file in sorted(paths)?.1 {
-        terminal.note(&format!("{}: left out, because it has no key \"drystone\"", name(&file)));
+impl Files {
+    /// Names the files that are no scenes, and returns the scene files.
+    pub(crate) fn noted(self, terminal: &Terminal) -> Vec<PathBuf> {
+        for file in self.foreign {
+            terminal.note(&format!("{}: left out, because it has no key \"drystone\"", name(&file)));
+        }
+        self.scenes
     }
-    Ok(())
+}
+
+/// Replaces each folder by the scene files in it. Subfolders are not read. Returns an error if a folder cannot be read or
+/// has no scene file.
+pub(crate) fn files(paths: &[PathBuf]) -> Result<Files, CliError> {
+    let mut files = Files::default();
+    for path in expanded(paths)? {
+        if !path.is_dir() {
+            files.scenes.push(path);
+            continue;
+        }
+        let found = files_in(&path, &["json"], false)?;
+        if found.is_empty() {
+            return Err(CliError::not_read(name(&path), "the folder contains no .json files"));
+        }
+        // A file that cannot be read is reported later.
+        let is_scene = |path: &PathBuf| file::bytes(path).map_or(true, |bytes| looks_like_scene(&bytes));
+        let (scenes, others): (Vec<PathBuf>, Vec<PathBuf>) = found.into_iter().partition(is_scene);
+        if scenes.is_empty() {
+            let why = "none of the .json files in the folder has the key \"drystone\"";
+            return Err(CliError::not_read(name(&path), why));
+        }
+        files.scenes.extend(scenes);
+        files.foreign.extend(others);
+    }
+    Ok(files)
 }
 
 /// Replaces each pattern, a path with `*` in its last part that no file has as its name, by the files that match it,
@@ -165,44 +194,29 @@ pub(crate) fn refuse_streams(paths: &[PathBuf]) -> Result<(), CliError> {
 /// Returns the files at `paths` and all `.json` files in folders, without reading them. A folder that cannot be read has
 /// none.
 pub(crate) fn candidates(paths: &[PathBuf]) -> Vec<PathBuf> {
-    let each = |path: PathBuf| if path.is_dir() { json_files(&path).unwrap_or_default() } else { vec![path] };
+    let each =
+        |path: PathBuf| if path.is_dir() { files_in(&path, &["json"], false).unwrap_or_default() } else { vec![path] };
     expanded(paths).unwrap_or_default().into_iter().flat_map(each).collect()
 }
 
-/// Returns the `.json` files in a folder, sorted by name.
-fn json_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let listed = fs::read_dir(folder)?.map(|entry| entry.map(|e| e.path()));
-    let mut listed = listed.collect::<io::Result<Vec<PathBuf>>>()?;
-    listed.retain(|file| file::ending(file) == "json" && file.is_file());
-    listed.sort();
-    Ok(listed)
-}
-
-/// Returns the files at `paths` and the scene files in folders, and the other `.json` files in folders.
-fn sorted(paths: &[PathBuf]) -> Result<(Vec<PathBuf>, Vec<PathBuf>), CliError> {
-    let (mut all, mut foreign) = (Vec::new(), Vec::new());
-    for path in &expanded(paths)? {
-        if !path.is_dir() {
-            all.push(path.clone());
-            continue;
+/// Returns the files in a folder whose names have one of these extensions, sorted by path. `is_deep` includes those in
+/// subfolders. Links to folders are not followed: they may form a cycle.
+pub(crate) fn files_in(folder: &Path, extensions: &[&str], is_deep: bool) -> Result<Vec<PathBuf>, CliError> {
+    let unread = |path: &Path, error: io::Error| CliError::not_read(name(path), error);
+    let (mut files, mut folders) = (Vec::new(), vec![folder.to_owned()]);
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).map_err(|error| unread(&folder, error))? {
+            let entry = entry.map_err(|error| unread(&folder, error))?;
+            let path = entry.path();
+            if is_deep && entry.file_type().map_err(|error| unread(&path, error))?.is_dir() {
+                folders.push(path);
+            } else if extensions.contains(&file::ending(&path).as_str()) && path.is_file() {
+                files.push(path);
+            }
         }
-        let found = json_files(path).map_err(|error| CliError::not_read(name(path), error))?;
-        if found.is_empty() {
-            return Err(CliError::not_read(name(path), "the folder contains no .json files"));
-        }
-        // A file that cannot be read is reported later.
-        let is_scene = |path: &PathBuf| file::bytes(path).map_or(true, |bytes| looks_like_scene(&bytes));
-        let (mut scenes, mut others): (Vec<PathBuf>, Vec<PathBuf>) = found.into_iter().partition(is_scene);
-        if scenes.is_empty() {
-            return Err(CliError::not_read(
-                name(path),
-                "none of the .json files in the folder has the key \"drystone\"",
-            ));
-        }
-        all.append(&mut scenes);
-        foreign.append(&mut others);
     }
-    Ok((all, foreign))
+    files.sort();
+    Ok(files)
 }
 
 /// The extensions of drawings, which only `import` reads.

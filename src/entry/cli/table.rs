@@ -15,7 +15,7 @@ use crate::products::wording::{capacity, failure, margin, verdict};
 use crate::text::heading;
 
 /// The words in the tables and in the lines below them, with their meanings.
-const MEANINGS: [[&str; 2]; 15] = [
+const MEANINGS: [[&str; 2]; 18] = [
     [
         "stands",
         "some set of admissible forces balances every block. The blocks are rigid, laid dry and at rest; a balance that exists only by wedging counts too.",
@@ -31,7 +31,22 @@ const MEANINGS: [[&str; 2]; 15] = [
         "balance",
         "many sets of forces can balance a frame; verdict and margins hold for all of them. The numbers of robots, and of forces with --verbose, belong to one of them, that of least forces; --explain prints the range of the horizontal thrust",
     ],
-    ["robots", "in one balance, the largest ratio of a robot's force or torque to its limit"],
+    [
+        "case",
+        "a load case: loads and weights with factors. The frame stands only if it stands in all cases; margins hold in all of them.",
+    ],
+    [
+        "vehicle",
+        "a structure stands only if it stands without the vehicle and at each of its positions; the factor multiplies the weights of its axles",
+    ],
+    [
+        "movement",
+        "how the blocks follow a small movement of a support: the joints that open, per millimetre of it, and the force on the support",
+    ],
+    [
+        "robots",
+        "in one balance, the largest ratio of a robot's force or torque to its limit; without limits, the largest force of a robot",
+    ],
     ["-", "no value, because it is not known or takes long to compute"],
     ["comes off", "the two bodies separate; the number is the pull that would have to hold them together"],
     ["slides", "the contact exceeds its friction; the number is the force that is missing"],
@@ -268,7 +283,11 @@ fn row(scene: &Scene, number: usize, label: String, frame: &FrameAnalysis) -> Ve
     let robots = match frame.robots.as_slice() {
         _ if !stands => "-".into(),
         [] => "none".into(),
-        robots if robots.iter().all(|r| is_free(&scene.robots[r.robot.0].limits)) => "no limit".into(),
+        // Without a limit, the force says how strong the robot must be.
+        robots if robots.iter().all(|r| is_free(&scene.robots[r.robot.0].limits)) => {
+            let most = robots.iter().map(|robot| robot.force.norm()).fold(0.0, f64::max);
+            quantity(most, scene.units.force())
+        }
         robots => tenths(robots.iter().map(|r| r.limit_used).fold(0.0, f64::max)),
     };
     let weight = quantity(frame.weight, scene.units.force());

@@ -14,7 +14,7 @@ use crate::entry::cli::source;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::AnalysisArgs;
 use crate::entry::value::{TimeLimit, seconds};
-use crate::mechanics::analysis::{Analysis, Options, Verdict};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, Options, Verdict};
 use crate::mechanics::certificate::{Certificate, Checked};
 use crate::mechanics::solve::DeadlineGuard;
 use crate::pictures::output::file::Existing;
@@ -57,7 +57,9 @@ impl Verify {
         if let Some(scene) = &self.scene {
             let own = source::read(std::slice::from_ref(scene), None, &AnalysisArgs::default());
             let own = own.map_err(|mut errors| errors.swap_remove(0))?;
-            let mut analysis = Analysis::with(own[0].scene.clone(), &Options::default().verdict_only(true));
+            // Which condition governs may depend on margins.
+            let is_plain = !own[0].scene.has_conditions();
+            let mut analysis = Analysis::with(own[0].scene.clone(), &Options::default().verdict_only(is_plain));
             // The proofs are not compared, so no time is spent on them.
             let _none = DeadlineGuard::new(Some(Instant::now()));
             let own = Certificate::new(&mut analysis, hash(&source::bytes(scene)?), false);
@@ -104,7 +106,8 @@ fn page(certificate: &Certificate, checked: &Checked) -> Page {
         let side = if limit.verdict == Verdict::Stable.word() { "inside" } else { "beyond" };
         // The change is what is proved; the words before it are only what the certificate says about it.
         let turned = limit.turned.map(|angle| format!(", gravity turned by {angle:.9}°")).unwrap_or_default();
-        let name = format!("frame {}, just {side} {} ({}{turned})", limit.frame, limit.of, form.change.to_json());
+        let side = if form.change.loads.is_some() { String::new() } else { format!("just {side} ") };
+        let name = format!("frame {}, {side}{} ({}{turned})", limit.frame, limit.of, form.change.to_json());
         line(name, &limit.verdict, &limit.faults);
     }
     if checked.frames.is_empty() {
@@ -119,7 +122,7 @@ fn page(certificate: &Certificate, checked: &Checked) -> Page {
     page
 }
 
-/// The largest number of blocks in all frames of a certificate. Each takes about 500 bytes, and a larger file is not read.
+/// The largest number of blocks in all frames and conditions of a certificate. Each takes about 500 bytes, and a larger file is not read.
 const MAX_BLOCKS: usize = 100_000;
 
 /// Writes the certificate of an analysis to a file, `with_margins` if its margins were requested.
@@ -135,10 +138,15 @@ pub(crate) fn write(
     // What was read from a pipe cannot be read again.
     let is_stream = scene == Path::new("-") || source::refuse_streams(&[scene.to_owned()]).is_err();
     let hash = if is_stream { String::new() } else { hash(&source::bytes(scene)?) };
-    let count: usize = analysis.scene.frames().iter().map(|frame| frame.placed.len()).sum();
+    let conditions = |found: &FrameAnalysis| {
+        let positions = found.vehicle.as_ref().map_or(0, |line| line.positions.len());
+        analysis.scene.cases().len().max(1) * (1 + positions)
+    };
+    let frames = analysis.scene.frames().iter().zip(&analysis.frames);
+    let count: usize = frames.map(|(frame, found)| frame.placed.len() * conditions(found)).sum();
     if count > MAX_BLOCKS {
         return Err(CliError::CommandLine(format!(
-            "{count} blocks in all frames are too many for a certificate, at most {MAX_BLOCKS} are written; choose one \
+            "{count} blocks in all frames and conditions are too many for a certificate, at most {MAX_BLOCKS} are written; choose one \
              frame with --frame"
         )));
     }

@@ -21,7 +21,7 @@ use crate::entry::cli;
 use crate::entry::request::{CheckArgs, Refused, read_json};
 use crate::mechanics::analysis::{self, Verdict};
 use crate::mechanics::certificate::Certificate;
-use crate::mechanics::scene::format::{SceneFile, parsed};
+use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{Scene, SceneError, isolate};
 use crate::pictures::drawing::Theme;
 use crate::products::result::{self, Layout, Timing};
@@ -286,7 +286,7 @@ fn read(py: Python<'_>, text: &str, located: bool) -> PyResult<()> {
 /// Returns the text of a scene file with the line breaks and spaces that drystone uses.
 #[pyfunction]
 fn formatted(py: Python<'_>, text: &str) -> PyResult<String> {
-    let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
+    let file = SceneFile::from_json(text).map_err(|why| fault(py, &why.to_string()))?;
     Ok(file.to_json())
 }
 

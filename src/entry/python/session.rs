@@ -8,9 +8,10 @@ use crate::entry::request::in_json;
 use crate::geometry::Point;
 use crate::mechanics::analysis;
 use crate::mechanics::scene::Scene;
-use crate::mechanics::scene::format::{BlockEntry, SceneFile, parsed};
+use crate::mechanics::scene::format::{BlockEntry, SceneFile};
 use crate::mechanics::session::{self, SessionError};
 use crate::products::result;
+use crate::read::{Dialect, Notation, Read, from_text};
 
 /// A structure under construction; every step returns the verdict.
 #[pyclass(module = "drystone._drystone")]
@@ -25,7 +26,7 @@ impl Session {
     fn new(py: Python<'_>, text: &str, options: &Options) -> PyResult<Session> {
         // Check the text first, because only `Scene::from_json` reports the lines of problems.
         Scene::from_json(text).map_err(|problems| refused(py, problems, options.request.located))?;
-        let file: SceneFile = parsed(text).map_err(|why| fault(py, &why))?;
+        let file = SceneFile::from_json(text).map_err(|why| fault(py, &why.to_string()))?;
         let inner = py.detach(|| session::Session::with(file, options.request.what.base()));
         let inner = inner.map_err(|error| complaint(py, error))?;
         Ok(Session { inner })
@@ -44,7 +45,8 @@ impl Session {
     ) -> PyResult<&'static str> {
         let mut block: BlockEntry = match keys {
             None => BlockEntry::default(),
-            Some(keys) => parsed(keys).map_err(|why| fault(py, &format!("block: {why}")))?,
+            Some(keys) => from_text(keys, Notation::Json, &Dialect::plain("block"), BlockEntry::read)
+                .map_err(|problems| fault(py, &format!("block: {problems}")))?,
         };
         (block.id, block.polygon, block.holes) = (id, polygon, holes);
         self.step(py, |inner| inner.place(block))

@@ -89,13 +89,16 @@ pub(crate) struct Gaps<'g> {
     /// The gap of a corner is at most this fraction of the shorter of its two sides. Infinite if every corner has the
     /// gap of its body.
     pub(crate) share_of_edge: f64,
+    /// Where corners of these bodies and of later ones meet, all of them move to the mean of their places. The corners of
+    /// earlier bodies stay.
+    pub(crate) moved_from: usize,
 }
 
 impl<'g> Gaps<'g> {
     /// Creates the gaps of all corners from the gap of each body, in metres. Every corner has the gap of its body,
     /// however short the sides at this corner are.
     pub(crate) fn new(of_body: &'g [f64]) -> Gaps<'g> {
-        Gaps { of_body, share_of_edge: f64::INFINITY }
+        Gaps { of_body, share_of_edge: f64::INFINITY, moved_from: usize::MAX }
     }
 }
 
@@ -123,7 +126,8 @@ pub(crate) struct Moved {
 }
 
 /// Moves corners onto corners and sides of other bodies if their distance is at most the smaller of their gaps. Corners
-/// that merge take the position of the corner of a fixed body, or else of the earliest body in the list.
+/// that merge take the position of the corner of a fixed body, or else of the earliest body in the list; the mean position
+/// if all their bodies are at least `gaps.moved_from`.
 ///
 /// A body marked in `fixed` does not change: corners of other bodies may move onto it, but its own corners never move.
 /// Bodies that snapping would damage stay as drawn. Snapping may deepen an overlap of two bodies by at most `noise`

@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use super::{Corner, Gaps, Rings, most_visits};
-use crate::geometry::{Aabb, BoxIndex, Point};
+use crate::geometry::{Aabb, BoxIndex, Point, Vector};
 
 /// A point that replaces one or more corners.
 pub(super) struct Node {
@@ -66,7 +66,7 @@ impl Nodes {
     /// distance is at most the smaller of their gaps.
     ///
     /// A node lies at a corner of a body that is marked in `kept`. Without such a body, it lies at the corner of the
-    /// earliest body.
+    /// earliest body, or in the middle of its corners if this body is one of `gaps.moved_from` and later.
     pub(super) fn new(bodies: &[Rings], gaps: Gaps<'_>, kept: &[bool]) -> Nodes {
         // List all corners with their gaps.
         let rings = bodies.iter().flatten();
@@ -83,7 +83,7 @@ impl Nodes {
             }
         }
         let joined = clustered(&corners, kept);
-        let (all, bodies, number) = merge(&corners, &joined, kept);
+        let (all, bodies, number) = merge(&corners, &joined, kept, gaps.moved_from);
         // The node of a corner is the node of its cluster's first corner.
         let of_corner: Vec<usize> = joined.first.iter().map(|first| number[*first]).collect();
         let places = of_corner.iter().map(|n| all[*n].at);
@@ -133,7 +133,12 @@ impl Clusters {
 
 /// Makes one node for each cluster. Returns the nodes, the bodies of all nodes in one list, and a list of node indices:
 /// the entry at the first corner of a cluster is the index of the cluster's node.
-fn merge(corners: &[UnplacedCorner], joined: &Clusters, kept: &[bool]) -> (Vec<Node>, Vec<usize>, Vec<usize>) {
+fn merge(
+    corners: &[UnplacedCorner],
+    joined: &Clusters,
+    kept: &[bool],
+    moved_from: usize,
+) -> (Vec<Node>, Vec<usize>, Vec<usize>) {
     // Create the node of each cluster when the loop reaches the first corner of the cluster.
     let mut members = Vec::new();
     let mut number = vec![0; corners.len()];
@@ -159,6 +164,10 @@ fn merge(corners: &[UnplacedCorner], joined: &Clusters, kept: &[bool]) -> (Vec<N
             }
             gap = gap.min(own_gap);
             bodies.push(body);
+        }
+        if !fixed && corner.body >= moved_from {
+            let offs = members.iter().map(|k| corners[*k].at - corner.at);
+            at = corner.at + offs.sum::<Vector>() / members.len() as f64;
         }
         number[first] = all.len();
         all.push(Node { at, bodies: begin..bodies.len(), gap, fixed });

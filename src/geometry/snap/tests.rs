@@ -166,6 +166,18 @@ fn the_earlier_body_stays_and_the_later_body_moves_to_it() {
 }
 
 #[test]
+fn bodies_that_may_move_meet_half_way() {
+    let drawn = [rectangle(0.0, -1.0, 9.0, 1.0), rectangle(1.0, 0.001, 2.0, 1.0), rectangle(2.998, 0.001, 2.0, 1.0)];
+    let gaps = Gaps { moved_from: 1, ..Gaps::new(&[0.01; 3]) };
+    let bodies = snapped(&drawn, gaps, &[false; 3], 1e-4).bodies;
+    let right = |body: usize| bodies[body][0].iter().map(|corner| corner.at.x).fold(f64::MIN, f64::max);
+    let left = |body: usize| bodies[body][0].iter().map(|corner| corner.at.x).fold(f64::MAX, f64::min);
+    assert!((right(1) - 2.999).abs() < 1e-12 && (left(2) - 2.999).abs() < 1e-12, "{bodies:?}");
+    assert_eq!(bodies[0], drawn[0], "the ground stays");
+    assert_eq!(bodies[1][0][0].at.y, 0.0);
+}
+
+#[test]
 fn an_overlap_of_less_than_the_gap_is_closed_and_a_deep_overlap_stays() {
     let shallow = vec![rectangle(0.0, 0.0, 4.0, 1.0), rectangle(1.0, 0.996, 2.0, 1.0)];
     let healed = snap_all(&shallow, 0.01);

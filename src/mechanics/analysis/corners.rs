@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use super::{Analysis, FrameAnalysis, Options, Verdict, repeat};
 use crate::mechanics::scene::{CornerContacts, Scene};
-use crate::mechanics::statics::interface::Interfaces;
+use crate::mechanics::statics::interface::{ContactKind, Interfaces};
+use crate::text::first_of;
 
 /// In scenes with more blocks, corners are not searched for this.
 const MAX_BLOCKS: usize = 1000;
@@ -47,6 +48,46 @@ pub(super) fn add_corners(analysis: &mut Analysis, options: &Options) {
                 found.corners_decide = true;
                 found.notices.push(notice(corners));
             }
+        }
+    }
+    add_near_corners(analysis, options);
+}
+
+/// A corner is near an edge up to this multiple of the distance within which they touch.
+const NEAR: f64 = 10.0;
+
+/// Notes the frames that fall, but would stand if corners near an edge touched it and carried force.
+fn add_near_corners(analysis: &mut Analysis, options: &Options) {
+    let given = analysis.given().clone();
+    let is_open = |found: &FrameAnalysis| found.verdict == Verdict::Unstable && !found.corners_decide;
+    if !analysis.frames.iter().any(|found| is_open(found)) || options.is_late() {
+        return;
+    }
+    let corners = if given.corner_contacts.on_edges() { given.corner_contacts } else { CornerContacts::ON_EDGES };
+    let touching = Interfaces::new(&Scene { corner_contacts: corners, ..Scene::clone(&given) });
+    let mut wider = Scene { corner_contacts: corners, ..Scene::clone(&given) };
+    wider.tolerance.gap *= NEAR;
+    let ground = wider.ground.iter_mut().map(|part| &mut part.body);
+    ground.chain(wider.blocks.iter_mut().map(|block| &mut block.body)).for_each(|body| body.gap *= NEAR);
+    let known = |bodies| touching.all.iter().any(|interface| interface.bodies == bodies);
+    let near =
+        Interfaces::new(&wider).all.into_iter().filter(|new| new.kind == ContactKind::Corner && !known(new.bodies));
+    let pairs: Vec<String> = near.map(|new| new.bodies.map(|body| wider.name(body)).join(" and ")).collect();
+    if pairs.is_empty() {
+        return;
+    }
+    let tolerance = given.units.typed_length(wider.tolerance.gap);
+    let value = tolerance.split(' ').next().unwrap_or_default();
+    let notice = format!(
+        "a corner comes near an edge, but is not within the {} that count as contact: {}; with `--set \
+         contact_tolerance={value} --set corner_contacts=on_edges` it stands",
+        given.units.small_length(given.tolerance.gap, 2),
+        first_of(pairs, 3)
+    );
+    let verdicts = Analysis::decide(wider.into(), &options.only_verdict()).frames;
+    for (found, near) in analysis.frames.iter_mut().zip(&verdicts) {
+        if is_open(found) && near.verdict == Verdict::Stable {
+            Arc::make_mut(found).notices.push(notice.clone());
         }
     }
 }

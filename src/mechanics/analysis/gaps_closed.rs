@@ -212,8 +212,8 @@ fn slivers_reason(scene: &Scene, slivers: &[&Interface]) -> UndecidedReason {
     let words = format!(
         "it stands if contacts of almost no length carry force and falls if they are only touching corners: {places}; \
          a contact_tolerance of {} counts them, one of {} does not",
-        scene.units.small_length(counting, 2),
-        scene.units.small_length(ignoring, 2),
+        scene.units.typed_length(counting),
+        scene.units.typed_length(ignoring),
     );
     UndecidedReason::Slivers { counting, ignoring, words }
 }
@@ -268,7 +268,7 @@ fn gaps_reason(scene: &Scene, verdicts: [Verdict; 2], places: &[AmbiguousPlace],
 
 fn gaps_explanation(scene: &Scene, verdicts: [Verdict; 2], places: &[AmbiguousPlace], closing: f64) -> String {
     let [written, closed] = verdicts.map(Verdict::verb);
-    let closing = scene.units.small_length(closing, 2);
+    let closing = scene.units.typed_length(closing);
     let enough = format!("a contact_tolerance of {closing} closes them");
     let (places, overlap) = (list_places(scene, places), places.iter().any(|p| p.overlaps));
     if overlap {

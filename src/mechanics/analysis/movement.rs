@@ -22,6 +22,12 @@ use crate::mechanics::statics::interface::Interfaces;
 /// A contact counts as closed up to this fraction of the largest relative velocity of two bodies in contact.
 const CLOSED_TOL: f64 = 1e-4;
 
+/// A component of the force on a support below this fraction of the force is an error of the solver.
+const FORCE_NOISE: f64 = 1e-9;
+/// The cost of a force, per unit of its work on the fastest point of the support. It moves a block by at most this fraction
+/// of the movement, which is far below [`CLOSED_TOL`].
+const PRICE_OF_FORCE: f64 = 1e-7;
+
 /// How a frame follows one of the movements that the scene lists.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -144,7 +150,12 @@ fn outcome(scene: &Scene, found: &FrameAnalysis, components: &[Assembly], moveme
             let contact = &component.contacts[contact];
             if is_moved(contact.interface) { -on_block.dot(&movement.at(contact.points[point])) / unit } else { 0.0 }
         };
-        match cheapest_forces(component, work, 0.0) {
+        // Where forces of any size do no work, the solver may find no end. A small price of forces bounds them.
+        let cheapest = cheapest_forces(component, work, 0.0).or_else(|status| match status {
+            Status::Infeasible => Err(status),
+            _ => cheapest_forces(component, work, PRICE_OF_FORCE),
+        });
+        match cheapest {
             Ok((forces, moved)) => {
                 set_forces(&mut state, component, &forces, scene.kernel);
                 motions.extend(moved.into_iter().map(|motion| (motion.block, motion)));
@@ -159,6 +170,8 @@ fn outcome(scene: &Scene, found: &FrameAnalysis, components: &[Assembly], moveme
         (force, force.dot(&movement.at(resultant.at)))
     });
     let (force, work) = on_support.fold((Vector::zeros(), 0.0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
+    // A component that is only rounding beside the other one is 0.
+    let force = force.map(|part| if part.abs() <= FORCE_NOISE * force.norm() { 0.0 } else { part });
     let mut cracked = Cracked { unit, force, work, cracks: Vec::new(), motions: motions.into_values().collect() };
     cracked.cracks = cracks(scene, found, movement, &cracked);
     MovementOutcome::Follows(cracked)

@@ -14,7 +14,7 @@ use super::condition::Condition;
 use super::{Analysis, FrameAnalysis, Options, Verdict};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::proof::{Motion, net_power};
-use crate::mechanics::scene::{BlockId, Frame, Scene};
+use crate::mechanics::scene::{BlockId, Frame, Limits, Scene};
 use crate::mechanics::solve::DeadlineGuard;
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect;
@@ -28,8 +28,9 @@ pub struct Removable {
     pub block: BlockId,
     /// The verdict on the rest of the frame: without this block, and without the robot that holds it.
     pub rest: Verdict,
-    /// The least force, N, of a robot that holds this block at its grip point, otherwise at its centroid, with which
-    /// the whole frame stands; 0 if it stands without this robot. `None` if no force suffices, or if none was found.
+    /// The least force, N, of a robot without torque that holds this block at its grip point, otherwise at its centroid,
+    /// with which the whole frame stands; 0 if it stands without this robot. `None` if no force suffices, or if none was
+    /// found.
     pub force: Option<f64>,
     /// If the rest falls: the block that one more robot must hold, so that the rest stands.
     pub help: Option<Help>,
@@ -135,7 +136,7 @@ fn of_block(
         _ => {
             let mut given = assembly(whole);
             let robots = given.grips.iter_mut().filter(|grip| hold.is_some_and(|hold| hold.robot == grip.robot));
-            robots.for_each(|grip| (grip.limits.fx, grip.limits.fy) = (0.0, 0.0));
+            robots.for_each(|grip| grip.limits = Limits { fx: 0.0, fy: 0.0, torque: 0.0 });
             let at = hold.map_or(scene.blocks[block.0].centroid, |hold| hold.at);
             least_hold(&given, vec![(block, at)], &[]).map(|help| help.map(|help| help.force))
         }

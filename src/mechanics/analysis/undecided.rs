@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::{FrameAnalysis, Verdict};
 use crate::mechanics::proof::Proof;
+use crate::text::power_of_ten;
 
 /// One reason why a frame is undecided; its `Display` describes it in a sentence.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +59,8 @@ impl fmt::Display for UndecidedReason {
                 if let Proof::Forces { worst_imbalance, .. } = forces {
                     write!(
                         f,
-                        "the forces found miss the balance of a block by {worst_imbalance:.1e} of the forces on it"
+                        "the forces found miss the balance of a block by {} of the forces on it",
+                        power_of_ten(*worst_imbalance, 1)
                     )?;
                 }
                 match motion {
@@ -67,7 +69,8 @@ impl fmt::Display for UndecidedReason {
                         "; a motion violates no contact, but its power may be zero within the tolerance of the forces"
                     ),
                     Some(Proof::Mechanism { power, worst_violation }) => {
-                        write!(f, "; a motion has power {power:.1e} but violates a contact by {worst_violation:.1e}")
+                        let [power, by] = [power, worst_violation].map(|x| power_of_ten(*x, 1));
+                        write!(f, "; a motion has power {power} but violates a contact by {by}")
                     }
                     _ => f.write_str("; no motion was found"),
                 }
@@ -118,11 +121,11 @@ mod tests {
         let late = "the time limit was reached before it was decided";
         assert_eq!(frame.doubt(), late);
         frame.doubts.extend([unproved(None), unproved(Some(0.5))]);
-        let off = "the forces found miss the balance of a block by 1.0e-3 of the forces on it";
+        let off = "the forces found miss the balance of a block by 0.001 of the forces on it";
         assert_eq!(
             frame.doubt(),
             format!(
-                "{late}: {off}; no motion was found; {off}; a motion has power 5.0e-1 but violates a contact by 1.0e-4"
+                "{late}: {off}; no motion was found; {off}; a motion has power 0.5 but violates a contact by 1×10⁻⁴"
             )
         );
     }

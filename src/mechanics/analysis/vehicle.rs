@@ -176,9 +176,8 @@ pub(super) fn decide_under_vehicle(
                     answers.also(Answers::of(&there, Condition { case: None, position: Some(position) }));
                     answers.give_to(whole, found);
                     found.notices.push(format!(
-                        "margins, placement: examined without the vehicle and at its governing position, not at the other \
-                         {} positions",
-                        count - 1
+                        "margins, placement: examined without the vehicle and at its governing position, not at {}",
+                        if count == 2 { "the other one".to_owned() } else { format!("the other {}", count - 1) }
                     ));
                 }
             }
@@ -312,13 +311,14 @@ struct Top {
     edge: Edge,
 }
 
-/// Returns the edges that are seen from above among the blocks of the vehicle, from left to right.
+/// Returns the edges of the blocks of the vehicle that are seen from above, from left to right. Other blocks hide what is
+/// below them.
 fn track(scene: &Scene, frame: &Frame, vehicle: &Vehicle) -> Vec<Top> {
     let across = quarter_turn(scene.down());
     let place = |point: Point| across.dot(&point.coords);
-    let is_named = |block: &&BlockId| vehicle.over.is_empty() || vehicle.over.contains(block);
+    let is_named = |block: &BlockId| vehicle.over.is_empty() || vehicle.over.contains(block);
     let mut edges: Vec<Top> = Vec::new();
-    for block in frame.placed.iter().filter(is_named) {
+    for block in &frame.placed {
         // The stone is on the left of an edge, so the edges that are seen from above run to the left.
         let of_block = scene.blocks[block.0].body.polygon.edges();
         let tops = of_block.map(|edge| Top { from: place(edge.to), to: place(edge.from), block: *block, edge });
@@ -338,7 +338,8 @@ fn track(scene: &Scene, frame: &Frame, vehicle: &Vehicle) -> Vec<Top> {
         }
         open.retain(|top| top.to > middle);
         let height = |top: &Top| -scene.down().dot(&top.point(across, middle).coords);
-        let Some(highest) = open.iter().max_by(|a, b| height(a).total_cmp(&height(b))) else { continue };
+        let highest = open.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
+        let Some(highest) = highest.filter(|top| is_named(&top.block)) else { continue };
         match track.last_mut() {
             Some(last) if last.edge == highest.edge && last.to == ends[0] => last.to = ends[1],
             _ => track.push(Top { from: ends[0], to: ends[1], ..*highest }),

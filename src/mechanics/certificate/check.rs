@@ -113,13 +113,19 @@ impl Certificate {
             still: limit.still.clone(),
             ..limit.change.of(frame)
         };
-        let mut faults = self.form_errors(&[], std::slice::from_ref(&changed));
+        let loaded = limit.change.loads.as_ref().map(|loads| self.with_loads(loads));
+        let own = loaded.as_ref().unwrap_or(self);
+        let bodies = loaded.as_ref().map_or(&[][..], |loaded| &loaded.bodies);
+        let mut faults = own.form_errors(bodies, std::slice::from_ref(&changed));
+        if limit.change.loads.iter().flatten().any(|(body, ..)| !frame.placed.contains(body)) {
+            faults.push("a load on a body that is not placed".to_owned());
+        }
         if limit.change.grip_limits.as_ref().is_some_and(|limits| limits.len() != frame.grips.len()) {
             faults.push("the limits are not those of the grips".to_owned());
         }
         if faults.is_empty() {
-            faults = self.place_faults(&changed, &mut 0.0);
-            faults.extend(self.proof_faults(&changed));
+            faults = own.place_faults(&changed, &mut 0.0);
+            faults.extend(own.proof_faults(&changed));
         }
         faults
     }

@@ -7,7 +7,7 @@
 //! this is the largest load factor along the loads −s on every contact point, one linear program for each component.
 
 use std::cell::OnceCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::check::LATE;
@@ -15,16 +15,17 @@ use super::fall::{NEGLIGIBLE, motion_of_all, opening_motion, with_motion};
 use super::limits::Limits;
 use super::stand::{inner_forces, order, slack_forces};
 use super::{
-    BodyForm, Certificate, CircleForm, ContactForm, ForcesForm, FrameForm, GripForm, LimitForm, LoadForm, Pair,
+    BodyForm, Certificate, Change, CircleForm, ContactForm, ForcesForm, FrameForm, GripForm, LimitForm, LoadForm, Pair,
 };
 use crate::geometry::{Point, Vector};
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, Options, Verdict, mechanism_of};
+use crate::mechanics::analysis::{Analysis, Condition, FrameAnalysis, Options, Verdict, mechanism_of};
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::mechanics::solve::{DeadlineGuard, is_late};
 use crate::mechanics::statics::assembly::{Assembly, AssemblyContact};
 use crate::mechanics::statics::effect::{FrameContext, assemble};
 use crate::mechanics::statics::interface::{ContactKind, Interfaces};
+use crate::text::line;
 
 /// If the forces of the analysis have this slack at least, as a share of the heaviest load, they are corrected.
 const ROOM: f64 = 1e-6;
@@ -35,8 +36,9 @@ type Proved = (FrameForm, Vec<String>);
 impl Certificate {
     /// Writes the certificate of an analysis, and notes in the analysis which verdicts it proves exactly and what the
     /// others miss. `scene_sha256` is the hash of the scene file in hexadecimal digits, or empty. Proofs of capacities and
-    /// placement tolerances are written if the analysis has them, those of margins `with_margins` only. A certificate has no
-    /// load cases: its bodies have the loads of the worst case of all frames, and do not prove a frame with another one.
+    /// placement tolerances are written if the analysis has them, those of margins `with_margins` only. The bodies have the
+    /// loads of the worst case of all frames. A frame that stands also has a proof for each other condition: each load case,
+    /// without the vehicle and with it at each of its positions.
     pub fn new(analysis: &mut Analysis, scene_sha256: String, with_margins: bool) -> Certificate {
         let first = analysis.of_each(|number| number);
         let mut proved = BTreeMap::new();
@@ -45,12 +47,69 @@ impl Certificate {
             !is_late()
         });
         certificate.scene_sha256 = scene_sha256;
+        for number in first.iter().copied().collect::<BTreeSet<usize>>() {
+            let conditions = certificate.conditions_of(analysis, number);
+            if let Some((_, limits)) = proved.get_mut(&(number + 1)) {
+                limits.extend(conditions);
+            }
+        }
         for (number, first) in first.into_iter().enumerate() {
             let (frame, (form, limits)) = (number + 1, &proved[&(first + 1)]);
             certificate.frames.push(FrameForm { frame, ..form.clone() });
             certificate.limits.extend(limits.iter().map(|limit| LimitForm { frame, ..limit.clone() }));
         }
         certificate
+    }
+
+    /// Proves a frame that stands in all conditions but the one that governs, and notes what a proof misses.
+    fn conditions_of(&self, analysis: &mut Analysis, number: usize) -> Vec<LimitForm> {
+        let given = analysis.given().clone();
+        let found = analysis.frames[number].clone();
+        if !given.has_conditions() || found.verdict != Verdict::Stable {
+            return Vec::new();
+        }
+        let cases: Vec<Option<usize>> = match given.cases().len() {
+            0 => vec![None],
+            count => (0..count).map(Some).collect(),
+        };
+        let positions = found.vehicle.as_ref().map_or(0, |line| line.positions.len());
+        let positions: Vec<Option<usize>> = [None].into_iter().chain((0..positions).map(Some)).collect();
+        let (mut proofs, mut missing) = (Vec::new(), None);
+        for condition in
+            cases.iter().flat_map(|case| positions.iter().map(|at| Condition { case: *case, position: *at }))
+        {
+            let Some(alone) = analysis.scene_in(number, condition).alone(number) else { continue };
+            let scene = Scene { cases: Vec::new(), vehicle: None, movements: Vec::new(), ..alone };
+            let here = self.about(bodies(&scene));
+            let other = self.bodies.iter().zip(&here.bodies).enumerate().filter(|(_, (base, own))| base != own);
+            let loads: Vec<_> = other.map(|(index, (_, own))| (index, own.weight, own.loads.clone())).collect();
+            if loads.is_empty() {
+                continue;
+            }
+            let (interfaces, frame) = (Interfaces::new(&scene), &scene.frames[0]);
+            let (assembly, _) =
+                assemble(&FrameContext { scene: &scene, frame, interfaces: &interfaces.in_frame(frame) });
+            let bare = frame_form(&scene, &assembly, number + 1, Verdict::Stable);
+            let own = (!is_late()).then(|| Analysis::with(&scene, &Options::default()).frames.pop()).flatten();
+            let (form, faults) = match own.filter(|own| own.verdict == Verdict::Stable) {
+                Some(own) => here.standing(&bare, &assembly, Some(&own)),
+                None => (bare, vec![if is_late() { LATE } else { "no forces were found" }.to_owned()]),
+            };
+            let case = condition.case.map(|case| format!("load case {}", line(&given.cases()[case].id)));
+            let at = found.vehicle.as_ref().map(|line| match condition.position {
+                Some(position) => format!("the first axle at x = {:.4} m", line.positions[position].at),
+                None => "without the vehicle".to_owned(),
+            });
+            let of = case.into_iter().chain(at).collect::<Vec<_>>().join(", ");
+            missing = missing.or(faults.first().map(|fault| format!("{of}: {fault}")));
+            proofs.push(LimitForm::new(&of, Change { loads: Some(loads), ..Change::default() }, form));
+        }
+        if let Some(fault) = missing {
+            let found = Arc::make_mut(&mut analysis.frames[number]);
+            found.exact = Some(false);
+            found.notices.push(format!("the verdict is not proved in exact arithmetic: {fault}"));
+        }
+        proofs
     }
 
     /// Notes in an analysis which verdicts exact arithmetic proves and what the others miss, as [`Certificate::new`] does,

@@ -38,6 +38,9 @@ pub type Pair = [f64; 2];
 /// contact k; the grips follow the contacts.
 pub type Step = (Vec<usize>, Vec<usize>);
 
+/// A body, its weight in newtons, and its loads.
+pub type Loaded = (usize, f64, Vec<LoadForm>);
+
 /// Values of some bodies, or of some components of forces, by their number.
 pub type Sparse = Vec<(usize, f64)>;
 
@@ -64,7 +67,8 @@ pub struct Certificate {
     /// One entry for each frame of the scene.
     pub frames: Vec<FrameForm>,
     /// Proofs of the margins and capacities: for each end of a margin, and for each corner and edge of a capacity, a
-    /// changed frame just inside that stands and one just beyond that falls.
+    /// changed frame just inside that stands and one just beyond that falls. Also the proofs of a frame that stands in its
+    /// other load cases, and under its vehicle.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub limits: Vec<LimitForm>,
 }
@@ -298,6 +302,9 @@ pub struct Change {
     /// The errors up to which the frame stands, or with which it falls.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub errors: Option<ErrorsForm>,
+    /// Bodies with another weight and other loads: those of a load case, or of a position of a vehicle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub loads: Option<Vec<Loaded>>,
     /// The limits of each grip.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grip_limits: Option<Vec<[Option<f64>; 3]>>,
@@ -378,6 +385,28 @@ impl Certificate {
         text.replace(",{\"frame\":", ",\n{\"frame\":") + "\n"
     }
 
+    /// Returns the loads of each condition of a frame, with the number of the frame.
+    fn conditions(&self) -> impl Iterator<Item = (usize, &Vec<Loaded>)> {
+        self.limits.iter().filter_map(|limit| Some((limit.frame, limit.change.loads.as_ref()?)))
+    }
+
+    /// Returns a certificate without frames, in which bodies have other weights and loads.
+    fn with_loads(&self, loads: &[Loaded]) -> Certificate {
+        let mut bodies = self.bodies.clone();
+        for (index, weight, loads) in loads {
+            if let Some(body) = bodies.get_mut(*index) {
+                (body.weight, body.loads) = (*weight, loads.clone());
+            }
+        }
+        self.about(bodies)
+    }
+
+    /// Returns a certificate without frames, about other bodies.
+    fn about(&self, bodies: Vec<BodyForm>) -> Certificate {
+        let scene_sha256 = self.scene_sha256.clone();
+        Certificate { bodies, scene_sha256, frames: Vec::new(), limits: Vec::new(), ..*self }
+    }
+
     /// Returns in which part this certificate is about another structure than `other`; `None` if the structures are
     /// equal. The proofs may differ.
     pub fn differs_from(&self, other: &Certificate) -> Option<&'static str> {
@@ -394,6 +423,8 @@ impl Certificate {
             .eq(other.frames.iter().map(FrameForm::without_proof))
         {
             Some("the frames differ: verdicts, placed blocks, contacts or robots")
+        } else if self.conditions().ne(other.conditions()) {
+            Some("the load cases or the positions of the vehicle differ")
         } else if self.scene_sha256 != other.scene_sha256 {
             Some("the file has another hash")
         } else {

@@ -11,6 +11,9 @@
 //! allowed in every direction in which the body can compensate for it: by friction within its cone, or by a change of
 //! its load by τ.
 
+use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
+
 use super::Forces;
 use crate::geometry::{
     CompensatedSum, Point, Vec3, Vector, cross, quick_gauge_bound, zonotope_gauge, zonotope_gauge_bound,
@@ -157,6 +160,7 @@ pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
 /// exceeds the largest τ found so far.
 pub(super) fn worst_imbalance(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
     let mut all = forces_by_body(assembly, forces);
+    let residuals: Vec<f64> = all.iter().map(|body| libm::hypot(body.residual()[0], body.residual()[1])).collect();
     let mut share: f64 = 0.0;
     let mut bounds: Vec<(f64, usize)> = Vec::with_capacity(all.len());
     for (number, body) in all.iter_mut().enumerate() {
@@ -183,7 +187,65 @@ pub(super) fn worst_imbalance(assembly: &Assembly, forces: &Forces) -> (f64, f64
         }
         imbalance = imbalance.max(all[number].imbalance());
     }
+    if imbalance > 0.0 {
+        imbalance = imbalance.max(chain_error(assembly, forces, &residuals));
+    }
     (imbalance, share)
+}
+
+/// A chain begins at a joint that carries at most this share of the greatest normal force,
+const WEAK: f64 = 1e-4;
+/// and leads to one that carries at least this share of it,
+const STRONG: f64 = 1e-3;
+/// over at least this many joints.
+const CHAIN: usize = 3;
+/// Each of them carries a multiple within this range of the force of the one before.
+const GROWTH: RangeInclusive<f64> = 1.2..=1e3;
+
+/// Returns the largest residual of a body at the end of a chain, relative to the force that the chain passes to it; 0 if
+/// there is no chain. `residuals` are in N.
+///
+/// In a row of round stones, each joint passes on only a part of the force of the joint before, because friction takes
+/// the rest. After a dozen stones, this part is small beside the weight of a stone. It is not small beside the force that
+/// the chain passes on, and what is missing there would have to grow from joint to joint. Where solver noise is left, it
+/// does not grow steadily to a real force.
+fn chain_error(assembly: &Assembly, forces: &Forces, residuals: &[f64]) -> f64 {
+    let normal = |contact: usize| forces.contacts[contact].normal.iter().sum::<f64>();
+    let strongest = (0..assembly.contacts.len()).map(normal).fold(0.0, f64::max);
+    // The joints between two bodies that carry a force.
+    let joint = |contact: usize| {
+        let ends = [assembly.contacts[contact].on, assembly.contacts[contact].from?];
+        Some((normal(contact), ends)).filter(|joint| joint.0 > 0.0)
+    };
+    let joints: Vec<(f64, [usize; 2])> = (0..assembly.contacts.len()).filter_map(joint).collect();
+    let mut of_body: BTreeMap<usize, Vec<(f64, [usize; 2])>> = BTreeMap::new();
+    for joint in &joints {
+        joint.1.iter().for_each(|body| of_body.entry(*body).or_default().push(*joint));
+    }
+    let other = |ends: [usize; 2], body: usize| ends[usize::from(ends[0] == body)];
+    let is_chain = |mut carried: f64, mut body: usize| {
+        let mut length = 0;
+        loop {
+            if carried >= STRONG * strongest {
+                return length >= CHAIN;
+            }
+            let grows = |next: &&(f64, [usize; 2])| GROWTH.contains(&(next.0 / carried));
+            let Some((next, ends)) = of_body[&body].iter().filter(grows).max_by(|a, b| a.0.total_cmp(&b.0)) else {
+                return false;
+            };
+            (carried, body, length) = (*next, other(*ends, body), length + 1);
+        }
+    };
+    let mut worst: f64 = 0.0;
+    for (carried, ends) in joints.iter().filter(|joint| joint.0 <= WEAK * strongest) {
+        for end in ends {
+            let error = residuals[*end] / carried;
+            if error > worst && is_chain(*carried, other(*ends, *end)) {
+                worst = error;
+            }
+        }
+    }
+    worst
 }
 
 /// Collects the forces on each body: its loads, and the forces at its contacts and grips.

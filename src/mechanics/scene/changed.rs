@@ -1,28 +1,32 @@
 //! Reads a scene in which some values are replaced, by [`Setting`]s.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
 
-use super::format::Setting;
-use super::format::setting::{changed, is_within};
+use super::format::setting::{Paths, apply, is_within};
+use super::format::{SceneFile, Setting};
 use super::note::{Lines, Note, NoteCode};
+use super::reading::{from_bytes, unchanged};
 use super::{Scene, SceneError};
+use crate::read::Source;
 
 impl Scene {
     /// Reads and checks the bytes of a scene file, like [`Scene::from_slice_within`], with other values in place of
-    /// some. In its file, `lines_before` lines stand before it. Also returns the bytes of the scene with these values.
+    /// some. In its file, `lines_before` lines stand before it. Also returns the bytes of a scene file with these values.
     pub(crate) fn from_slice_set<'b>(
         lines_before: usize,
         bytes: &'b [u8],
         tolerance: Option<f64>,
         settings: &[Setting],
     ) -> Result<(Scene, Cow<'b, [u8]>), SceneError> {
-        let plain = |bytes: &[u8]| Scene::from_slice_after(lines_before, bytes, tolerance);
-        let text = std::str::from_utf8(bytes).ok().filter(|_| !settings.is_empty());
-        let Some(text) = text else { return plain(bytes).map(|scene| (scene, bytes.into())) };
-        let (set, paths) = changed(text, settings)?;
-        let mut scene = plain(set.as_bytes()).map_err(|mut problems| {
+        if settings.is_empty() {
+            return from_bytes(lines_before, bytes, tolerance, &unchanged).map(|(scene, _)| (scene, bytes.into()));
+        }
+        let (result, paths) = read(lines_before, bytes, tolerance, settings);
+        let (mut scene, file) = result.map_err(|mut problems| {
             for problem in &mut problems.list {
-                if let Some((setting, _)) = paths.iter().find(|(_, path)| is_within(&problem.path, path)) {
+                let found = paths.iter().position(|path| is_within(&problem.path, path));
+                if let Some(setting) = found.and_then(|number| settings.get(number)) {
                     // The value does not stand in the file, so a line of the file would not show it.
                     (problem.line, problem.column, problem.span) = (0, 0, None);
                     problem.message = format!("--set {setting}: {}", problem.message);
@@ -31,21 +35,20 @@ impl Scene {
             problems
         })?;
         scene.set = settings.iter().map(ToString::to_string).collect();
-        for (number, (setting, path)) in paths.iter().enumerate() {
-            let mut others = settings.to_vec();
-            others.remove(number);
-            let without = changed(text, &others).ok().and_then(|(text, _)| plain(text.as_bytes()).ok());
-            if setting.name != "title" && without.is_some_and(|without| without.structure() == scene.structure()) {
+        for (number, (setting, path)) in settings.iter().zip(paths).enumerate() {
+            let others = [&settings[..number], &settings[number + 1..]].concat();
+            let without = read(lines_before, bytes, tolerance, &others).0;
+            if setting.name != "title" && without.is_ok_and(|(without, _)| without.structure() == scene.structure()) {
                 scene.notes.push(Note {
                     code: NoteCode::SetUnused,
-                    path: path.clone(),
+                    path,
                     line: 0,
                     message: format!("--set {setting} changes nothing"),
                     hint: "the scene has this value already, or its bodies have values of their own".into(),
                 });
             }
         }
-        Ok((scene, set.into_bytes().into()))
+        Ok((scene, file.to_json().into_bytes().into()))
     }
 
     /// Returns all that the verdict depends on, as text to be compared.
@@ -53,6 +56,18 @@ impl Scene {
         let (title, notes, lines, set) = (String::new(), Vec::new(), Lines::default(), Vec::new());
         format!("{:?}", Scene { title, notes, lines, set, ..self.clone() })
     }
+}
+
+/// Reads a scene with these settings. Also returns the paths of their values.
+fn read<'t>(
+    lines_before: usize,
+    bytes: &'t [u8],
+    tolerance: Option<f64>,
+    settings: &'t [Setting],
+) -> (Result<(Scene, SceneFile), SceneError>, Paths) {
+    let paths = RefCell::default();
+    let edit = |source: &mut Source<'t>| apply(settings, source).map(|found| *paths.borrow_mut() = found);
+    (from_bytes(lines_before, bytes, tolerance, &edit), paths.take())
 }
 
 #[cfg(test)]
@@ -87,6 +102,43 @@ mod tests {
     }
 
     #[test]
+    fn a_number_may_begin_with_a_point() {
+        let (scene, _) = set(&["friction=.5", "tilt=-.5", "blocks[0].friction=.25"]).expect("a scene");
+        assert_eq!((scene.ground[0].body.friction, scene.blocks[0].body.friction), (0.5, 0.25));
+        assert!(
+            (scene.gravity.x / scene.gravity.y - libm::tan(0.5_f64.to_radians())).abs() < 1e-12,
+            "{:?}",
+            scene.gravity
+        );
+        assert_eq!(scene.set, ["friction=0.5", "tilt=-0.5", "blocks[0].friction=0.25"]);
+        // Other words with a point at the beginning are strings.
+        for typed in ["title=.", "title=.5.", "title=-.", "title=.a"] {
+            let (scene, _) = set(&[typed]).expect("a scene");
+            assert_eq!(format!("title={}", scene.title), typed);
+        }
+    }
+
+    #[test]
+    fn missing_keys_are_added_and_lines_are_those_of_the_file() {
+        let (scene, text) =
+            set(&["units.length=mm", "blocks[1]={ \"mass\": 2, \"polygon\": [[0,1],[2,1],[2,2]] }"]).expect("a scene");
+        assert_eq!(scene.units.length().symbol(), "mm");
+        assert_eq!((scene.blocks[1].weight, scene.lines.blocks.as_slice()), (2.0 * 9.81, [3, 4].as_slice()));
+        assert!(text.contains("\"length\": \"mm\""), "{text}");
+        let wrong = set(&["unit.length=mm", "friction=1e999"]).expect_err("two values").to_string();
+        for words in ["--set unit.length=\"mm\": unknown key `unit`", "the number inf is too large"] {
+            assert!(wrong.contains(words), "{wrong}");
+        }
+        let wrong = set(&["title.x=1"]).expect_err("a string").to_string();
+        assert!(wrong.contains("\"Two\" has no key \"x\""), "{wrong}");
+        let wrong = set(&["units=3", "units.length=m"]).expect_err("a number").to_string();
+        assert!(wrong.contains("the value set before has no key \"length\""), "{wrong}");
+        let deep = "a.".repeat(60_000);
+        assert!(format!("{deep}a=1").parse::<Setting>().is_err());
+        assert!(set(&[&format!("{}=1", "a.b.".repeat(30))]).is_err());
+    }
+
+    #[test]
     fn a_tilt_turns_gravity_as_the_margin_does() {
         let (right, _) = set(&["gravity=[0,-2]", "tilt=90"]).expect("a scene");
         assert!((right.gravity.x - 2.0).abs() < 1e-12 && right.gravity.y.abs() < 1e-12, "{:?}", right.gravity);
@@ -106,13 +158,6 @@ mod tests {
         assert_eq!(wrong.list.len(), 3);
         for typed in ["friction", "=3", "kernel=", "tilt=left", "load_factor=x"] {
             assert!(typed.parse::<Setting>().is_err(), "{typed}");
-        }
-    }
-
-    #[test]
-    fn a_number_may_begin_with_a_point() {
-        for (typed, read) in [("kernel=.5", "kernel=0.5"), ("tilt=-.25", "tilt=-0.25"), ("title=.x", "title=\".x\"")] {
-            assert_eq!(typed.parse::<Setting>().expect("a setting").to_string(), read);
         }
     }
 

@@ -18,7 +18,7 @@ mod unit;
 
 #[cfg(feature = "schema")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 pub use body::{BlockEntry, CircleEntry, ContactEntry, GroundEntry, LimitsEntry, RobotEntry};
 pub(crate) use lines::Lines;
@@ -27,6 +27,7 @@ pub use map::Map;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use setting::Setting;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
+pub(in crate::mechanics::scene) use unit::convert;
 pub use unit::{ForceUnit, LengthUnit, UnitsEntry};
 
 use self::declare::{entry, word};
@@ -64,9 +65,9 @@ entry! {
         /// Safety kernel, 0 to 1: each application point moves inward by half this fraction of the contact's length.
         /// Default 0.
         kernel: Option<f64> [range(min = 0.0, max = 1.0), extend("default" = 0.0)],
-        /// Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one. Default
-        /// 1.
-        density: Option<f64> [range(min = 0.0), extend("default" = 1.0)],
+        /// Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one; also a
+        /// text with another unit, such as `"150 lb/ft3"`. Default 1.
+        density: Option<f64> [range(min = 0.0), extend("default" = 1.0, "type" = ["number", "string"])],
         /// Thickness of all blocks perpendicular to the plane, in the length unit of the scene, at least 0. Default 1.
         thickness: Option<f64> [range(min = 0.0), extend("default" = 1.0)],
         /// Materials of blocks and of the ground, by name.
@@ -112,13 +113,6 @@ entry! {
         /// Codes of notes that are switched off, such as `no_ground`.
         silence: Vec<String>,
     }
-}
-
-/// Parses a scene file, or one entry of it, such as a block, from its JSON text. Only the types of the values are
-/// checked. The error is a message for the user.
-#[cfg(any(feature = "cli", feature = "python", feature = "wasm"))]
-pub(crate) fn parsed<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, String> {
-    serde_json::from_str(text).map_err(|error| error.to_string())
 }
 
 impl SceneFile {
@@ -246,7 +240,7 @@ impl SceneFile {
 }
 
 /// Version of the scene format; 1 by default.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(transparent)]
 #[cfg_attr(feature = "schema", schemars(inline))]
@@ -272,7 +266,7 @@ entry! {
     /// A material of blocks or of the ground.
     pub struct MaterialEntry {
         /// Density in kg/m³, at least 0, of blocks of this material that give none.
-        density: Option<f64> [range(min = 0.0)],
+        density: Option<f64> [range(min = 0.0), extend("type" = ["number", "string"])],
         /// Friction coefficient, at least 0, of bodies of this material that give none.
         friction: Option<f64> [range(min = 0.0)],
         /// Fill colour, "#rrggbb" or "#rgb", of bodies of this material that give none.
@@ -316,7 +310,7 @@ word! {
 }
 
 /// Which corners that touch another body carry force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(untagged)]
 pub enum CornerContacts {
@@ -328,6 +322,7 @@ pub enum CornerContacts {
 
 word! {
     /// What a corner must touch to carry force.
+    #[derive(serde::Deserialize)]
     #[non_exhaustive]
     pub enum CornersAt {
         /// An edge or a circle. A corner that touches only another corner carries none.
@@ -374,7 +369,7 @@ impl Read for CornerContacts {
 }
 
 /// A lattice cell: `[x, y, "up"]` or `[x, y, "down"]` on the triangular lattice, `[x, y]` on the square lattice.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(untagged)]
 #[non_exhaustive]
@@ -501,12 +496,6 @@ pub fn schema() -> String {
 #[cfg(feature = "schema")]
 const FILL_PATTERN: &str = "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6})$";
 
-/// Parses a text with serde, for tests of the reader.
-#[cfg(test)]
-pub(super) fn parse(text: &str) -> Option<SceneFile> {
-    serde_json::from_str(text).ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -531,7 +520,7 @@ mod tests {
             ..SceneFile::default()
         };
         let text = serde_json::to_string(&file).expect("JSON text");
-        let read: SceneFile = serde_json::from_str(&text).expect("a scene file");
+        let read = SceneFile::from_json(&text).expect("a scene file");
         assert_eq!(read, file);
         assert_eq!(read.steps[0].hold.0[0].0, "z", "a map keeps the file's order");
     }

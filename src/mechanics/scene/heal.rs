@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use super::{Block, BlockId, Body, BodyId, Ground, Scene};
 use crate::geometry::snap::{Corner, Gaps, Rings, polygon, snapped};
 use crate::geometry::{Point, Polygon, Tolerance};
-use crate::text::and_more;
+use crate::text::{and_more, power_of_ten};
 
 /// Rounded coordinates are healed only if rounding can move corners off their edges by at most this fraction of the
 /// median block size. Healing then moves a corner by at most this fraction of its body's size.
@@ -245,7 +245,8 @@ impl Drawn {
     fn within_reach(&self, reach: HealingReach) -> Closed<'_> {
         let mut closed = Closed { outlines: Cow::Borrowed(&self.outlines[..]), kept: Vec::new(), reach };
         if reach.healing > 0.0 {
-            let limits = Gaps { of_body: &self.gaps(reach), share_of_edge: reach.share_of_edge() };
+            let gaps = self.gaps(reach);
+            let limits = Gaps { share_of_edge: reach.share_of_edge(), ..Gaps::new(&gaps) };
             let outcome = snapped(&self.outlines, limits, &self.fixed, MAX_DEEPENING_PER_GAP);
             (closed.outlines, closed.kept) = (outcome.bodies, outcome.kept);
         }
@@ -366,20 +367,23 @@ impl Scene {
         let unit = self.units.length();
         let [gap, within, distance] = [self.tolerance.gap, within, distance].map(|metres| unit.value_from_si(metres));
         let unit = unit.symbol();
-        let mut words = if within <= 0.0 {
-            format!("edges touch within a distance of {gap:.2e} {unit}, a millionth of the scene's extent")
-        } else if within < gap {
+        let shown = |x: f64| power_of_ten(x, 2);
+        let [is_apart, is_narrow] = [within <= 0.0, within < gap];
+        let [gap, within, distance] = [gap, within, distance].map(shown);
+        let mut words = if is_apart {
+            format!("edges touch within a distance of {gap} {unit}, a millionth of the scene's extent")
+        } else if is_narrow {
             format!(
-                "edges touch within a distance of {gap:.2e} {unit}, a millionth of the scene's extent; edges within {within:.2e} {unit} are moved onto each other ({from})"
+                "edges touch within a distance of {gap} {unit}, a millionth of the scene's extent; edges within {within} {unit} are moved onto each other ({from})"
             )
         } else {
-            format!("edges touch within a distance of {gap:.2e} {unit} ({from})")
+            format!("edges touch within a distance of {gap} {unit} ({from})")
         };
         if corners > 0 {
             let of = if bodies == 1 { "body" } else { "bodies" };
             let corner = if corners == 1 { "corner" } else { "corners" };
             words += &format!(
-                "; {corners} {corner} of {bodies} {of} moved onto the edges they touch, by up to {distance:.1e} {unit}"
+                "; {corners} {corner} of {bodies} {of} moved onto the edges they touch, by up to {distance} {unit}"
             );
         }
         if let Some(body) = first_kept {

@@ -149,26 +149,22 @@ pub(super) fn cells(
     let mut seen = std::collections::BTreeMap::new();
     for (i, entry) in entries.iter().enumerate() {
         let at = at.index(i);
-        let (x, y, half) = match (*entry, lattice.kind) {
-            (CellEntry::Triangle(x, y, CellHalf::Up), LatticeKind::Triangular) => (x, y, CellShape::Up),
-            (CellEntry::Triangle(x, y, CellHalf::Down), LatticeKind::Triangular) => (x, y, CellShape::Down),
-            (CellEntry::Square(x, y), LatticeKind::Square) => (x, y, CellShape::Square),
-            (CellEntry::Square(..), LatticeKind::Triangular) => {
-                findings.add(&at, problem::outline::square_cell());
-                sound = false;
-                continue;
-            }
-            (CellEntry::Triangle(..), LatticeKind::Square) => {
-                findings.add(&at, problem::outline::triangle_cell());
-                sound = false;
-                continue;
-            }
+        let (pair, shape) = cell_parts(*entry);
+        let wrong = match (shape, lattice.kind) {
+            (CellShape::Square, LatticeKind::Triangular) => Some(problem::outline::square_cell()),
+            (CellShape::Up | CellShape::Down, LatticeKind::Square) => Some(problem::outline::triangle_cell()),
+            _ => None,
         };
-        let Some((x, y)) = node(findings, &at, [x, y]) else {
+        if let Some(wrong) = wrong {
+            findings.add(&at, wrong);
+            sound = false;
+            continue;
+        }
+        let Some((x, y)) = node(findings, &at, pair) else {
             sound = false;
             continue;
         };
-        let cell = Cell { x, y, shape: half };
+        let cell = Cell { x, y, shape };
         if let Some(first) = seen.insert(cell, i) {
             findings.add(&at, problem::outline::cell_twice(first));
             sound = false;
@@ -185,9 +181,18 @@ pub(super) fn cells(
     Some(Outline::Cells(cells))
 }
 
+/// Returns the coordinates and the shape of a cell.
+pub(super) fn cell_parts(cell: CellEntry) -> (Pair, CellShape) {
+    match cell {
+        CellEntry::Triangle(x, y, CellHalf::Up) => ([x, y], CellShape::Up),
+        CellEntry::Triangle(x, y, CellHalf::Down) => ([x, y], CellShape::Down),
+        CellEntry::Square(x, y) => ([x, y], CellShape::Square),
+    }
+}
+
 /// Converts two coordinates to a lattice point. Reports a problem and returns `None` if a coordinate is not a whole
 /// number, or beyond ±[`MAX_LATTICE_COORDINATE`].
-fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64)> {
+pub(super) fn node(findings: &mut Findings, at: &Trail<'_>, pair: Pair) -> Option<(i64, i64)> {
     if !is_sane(findings, at, &pair) {
         return None;
     }

@@ -212,7 +212,7 @@ fn remedy(cause: Cause<'_>) -> Option<String> {
                 "write a number such as 0.6; to name what a body is made of, use `material`, and give its friction in `materials`"
             }
             (Expected::Number, NodeKind::Text(text)) if !text.contains(',') => {
-                "write a number without a unit; the units are metres, newtons, kilograms and degrees, unless the file gives other `units`"
+                "write a number without a unit; the units are metres, newtons, kilograms and degrees, unless the file gives other `units`; only a density or a unit weight may have one, such as \"18 kN/m3\""
             }
             (Expected::Object, NodeKind::Text(unit)) if at.ends_in("units") => {
                 let key = if matches!(unit.as_ref(), "N" | "kN" | "MN" | "lbf") { "force" } else { "length" };

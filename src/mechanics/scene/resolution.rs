@@ -149,7 +149,7 @@ impl<'f> Resolution<'f> {
         }
         let (mut ground, mut blocks) = (self.ground(findings), self.blocks(findings));
         let names = self.body_names(findings);
-        let mut contacts = self.contacts(findings, &names.blocks);
+        let mut contacts = self.contacts(findings, &names.blocks, &ground);
         if self.has_schematic_bodies() {
             self.add_schematic_outlines(&mut ground, &mut blocks, &mut contacts);
         }

@@ -3,10 +3,12 @@
 //!
 //! A sketch is only for drawing, not for analysis: outlines may cross, and bodies may overlap.
 
-use super::format::UnitsEntry;
+use std::borrow::Cow;
+
+use super::format::{UnitsEntry, convert};
 use super::problem::{Place, SCENE, SceneError};
 use super::resolution::{self, SketchedBody};
-use super::{BlockId, BodyId, Scene, reading};
+use super::{BlockId, BodyId, Scene, finding, reading};
 use crate::geometry::{Bounds, Point};
 use crate::read::syntax;
 
@@ -52,23 +54,30 @@ impl Sketch {
     /// assert_eq!((place.at.x, place.at.y), (1.5, 0.5));
     /// ```
     pub fn from_bytes(bytes: &[u8], tolerance: Option<f64>) -> Sketch {
-        let problems = Scene::from_slice_within(bytes, tolerance).err();
         let mut sketch = Sketch {
             title: String::new(),
             bodies: Vec::new(),
-            problems: problems.unwrap_or_default(),
+            problems: SceneError::default(),
             places: Vec::new(),
             scene: None,
             units: UnitsEntry::default(),
         };
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let text = String::from_utf8_lossy(bytes);
-        if let Ok(source) = syntax::json(&text, &SCENE) {
-            let (mut file, _, unread) = reading::read(&source, &SCENE);
-            file.tolerate(tolerance);
-            sketch.units = file.units.unwrap_or_default();
-            (sketch.bodies, sketch.scene) = resolution::sketch(&file, unread);
-            sketch.title = file.title.unwrap_or_default();
+        match syntax::json(&text, &SCENE) {
+            Ok(mut source) => {
+                convert(&mut source);
+                let (mut file, mut findings, unread) = reading::read(&source, &SCENE);
+                file.tolerate(tolerance);
+                sketch.units = file.units.unwrap_or_default();
+                (sketch.bodies, sketch.scene) = resolution::sketch(&file, unread, &mut findings);
+                sketch.title = file.title.unwrap_or_default();
+                sketch.problems = finding::located(findings, Some(&source));
+            }
+            Err(broken) => sketch.problems = SceneError::broken(&text, broken),
+        }
+        if matches!(text, Cow::Owned(_)) {
+            sketch.problems = reading::not_utf8(bytes);
         }
         sketch.places =
             (sketch.problems.list.iter()).map(|problem| sketch.spot(&problem.path, problem.place.as_ref())).collect();

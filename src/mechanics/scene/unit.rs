@@ -41,7 +41,7 @@ impl From<&'static str> for Unit {
 
 impl LengthUnit {
     /// Returns the symbol of the unit, the symbol of its square, and the size of the unit in metres.
-    fn parts(self) -> (&'static str, &'static str, f64) {
+    pub(super) fn parts(self) -> (&'static str, &'static str, f64) {
         match self {
             LengthUnit::Metre => ("m", "m²", 1.0),
             LengthUnit::Centimetre => ("cm", "cm²", 1e-2),
@@ -54,7 +54,7 @@ impl LengthUnit {
 
 impl ForceUnit {
     /// Returns the symbol of the unit, and its size in newtons.
-    fn parts(self) -> (&'static str, f64) {
+    pub(super) fn parts(self) -> (&'static str, f64) {
         match self {
             ForceUnit::Newton => ("N", 1.0),
             ForceUnit::Kilonewton => ("kN", 1e3),
@@ -71,11 +71,17 @@ impl UnitsEntry {
         Unit { symbol: [symbol, "", ""], size, is_chosen: self.length.is_some() }
     }
 
-    /// Writes a small length with its unit in scientific notation, such as `6.71e-3 mm`. `digits` is the number of
-    /// digits after the point.
+    /// Writes a small length with its unit and a power of ten, such as `6.71×10⁻³ mm`. `digits` is the number of digits
+    /// after the point.
     pub(crate) fn small_length(&self, metres: f64, digits: usize) -> String {
         let unit = self.length();
-        format!("{:.digits$e} {}", unit.value_from_si(metres), unit.symbol())
+        format!("{} {}", crate::text::power_of_ten(unit.value_from_si(metres), digits), unit.symbol())
+    }
+
+    /// Writes a length as a value to be typed, such as `6.71e-3 mm`.
+    pub(crate) fn typed_length(&self, metres: f64) -> String {
+        let unit = self.length();
+        format!("{:.2e} {}", unit.value_from_si(metres), unit.symbol())
     }
 
     /// Writes the coordinates of a point in the unit of length, with four digits after the point and without the unit.

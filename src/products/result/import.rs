@@ -46,6 +46,7 @@ fn log(imported: &Imported, text: Option<String>) -> String {
             to: Json::list(&snapped.to),
         }
     });
+    let left_out = imported.left_out.iter().map(|(what, count)| object! { what: *what, count: *count });
     let log = object! {
         drystone: env!("CARGO_PKG_VERSION"),
         blocks: scene.blocks.len(),
@@ -54,6 +55,7 @@ fn log(imported: &Imported, text: Option<String>) -> String {
         scene: text,
         notes: Json::list(&imported.notes),
         warnings: Json::list(warnings),
+        left_out: Json::list(left_out),
         snapped: Json::list(snapped),
     };
     written(&log, Layout::Lines, 1)

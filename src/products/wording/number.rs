@@ -3,7 +3,7 @@
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::Unit;
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::text::without_zeros;
+use crate::text::{power_of_ten, superscript, without_zeros};
 
 /// A no-break space.
 pub const NO_BREAK: char = '\u{a0}';
@@ -54,24 +54,6 @@ pub fn shifted(value: f64, shift: i32) -> String {
     let size: f64 = format!("{mantissa}e{}", exponent + shift).parse().unwrap_or(0.0);
     let sign = if value < 0.0 && size > 0.0 { "−" } else { "" };
     format!("{sign}{size}")
-}
-
-/// Writes a whole number in superscript digits: `⁻⁹`.
-fn superscript(value: i32) -> String {
-    let raised = |c: char| match c {
-        '-' => '⁻',
-        '0' => '⁰',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        '7' => '⁷',
-        '8' => '⁸',
-        _ => '⁹',
-    };
-    value.to_string().chars().map(raised).collect()
 }
 
 /// Writes the magnitude and the direction of a force: `7.1 N at 30°`. The angle is measured anticlockwise from the
@@ -152,14 +134,14 @@ pub fn letter(number: usize) -> String {
 }
 
 /// Writes a number with four significant digits, or with all digits of its whole part if it has more. Trailing zeros of
-/// decimals are dropped. Numbers below 0.001 or from a million on are written like `1.000e6`.
+/// decimals are dropped. Numbers below 0.001 or from a million on are written like `1.234×10⁶`.
 pub fn digits(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
         return "0".into();
     }
     if !(1e-3..1e6).contains(&size) {
-        return format!("{x:.3e}");
+        return power_of_ten(x, 3);
     }
     // `first` is the power of ten of the first significant digit. Three more digits follow.
     let first = libm::log10(size).floor() as i32;
@@ -196,11 +178,15 @@ fn three_beyond(x: f64, sign: f64) -> String {
     // The relative error of margins.
     const MARGIN_TOL: f64 = 1e-6;
     let nearest = three(x);
-    let written: f64 = nearest.parse().unwrap_or(x);
+    // A number with a power of ten has four digits.
+    let (written, more) = match nearest.parse() {
+        Ok(written) => (written, 2.0),
+        Err(_) => (format!("{x:.3e}").parse().unwrap_or(x), 3.0),
+    };
     let safe = if x <= 0.0 || (x - written) * sign <= MARGIN_TOL * x {
         nearest
     } else {
-        three(written + sign * libm::exp10(libm::floor(libm::log10(x)) - 2.0))
+        three(written + sign * libm::exp10(libm::floor(libm::log10(x)) - more))
     };
     without_zeros(&safe).to_owned()
 }

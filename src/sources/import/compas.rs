@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde_json::{Map, Value};
 
 use super::choice;
-use super::draft::{Remark, Role};
+use super::draft::{Remark, Role, short};
 use super::naming::Naming;
 use super::outline::NO_GROUND;
 use super::{DrawingProblems, Imported, Options};
@@ -46,10 +46,10 @@ struct AssemblyBlock {
     faces: Vec<Vec<[f64; 3]>>,
 }
 
-/// The section of a prism, and its thickness.
+/// The section of a prism, and the coordinates of its ends perpendicular to the section.
 struct Section {
     polygon: Polygon,
-    thickness: f64,
+    ends: [f64; 2],
 }
 
 /// True if a JSON text contains an assembly or a model with blocks.
@@ -88,8 +88,8 @@ pub(crate) fn sections(
 ///
 /// # Errors
 /// Returns an error if the text is not an assembly with blocks, if all blocks are supports, if the blocks are not
-/// prisms perpendicular to one of the planes, if they differ in thickness and `options` has no thickness, or if
-/// `--ground` or `--ignore` chooses nothing.
+/// prisms perpendicular to one of the planes, if no plane goes through all of them, if they differ in thickness and
+/// `options` has no thickness, or if `--ground` or `--ignore` chooses nothing.
 pub(super) fn read(text: &str, options: &Options, planes: &[Plane]) -> Result<Imported, DrawingProblems> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let refused = |message: String, help: &str| {
@@ -137,13 +137,33 @@ pub(super) fn read(text: &str, options: &Options, planes: &[Plane]) -> Result<Im
                 scene.blocks.push(BlockEntry { holes, density, ..BlockEntry::from(outline).id(&solid.name) });
             }
         }
-        depths.push(section.thickness * metres);
+        depths.push((solid.name.as_str(), section.ends.map(|end| end * metres)));
     }
     if scene.blocks.is_empty() {
         let help = "blocks whose node has is_support become ground, and those that --ground chooses";
         return Err(refused("it has no block that is not a support".into(), help));
     }
-    let (thin, thick) = depths.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(*d), b.max(*d)));
+    // A structure is plane only if a plane goes through all blocks.
+    let first_end = depths.iter().min_by(|a, b| a.1[1].total_cmp(&b.1[1]));
+    let last_start = depths.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]));
+    if let (Some((front, [near, end])), Some((back, [start, far]))) = (first_end, last_start)
+        && start >= end
+    {
+        let [front, back] = [front, back].map(|name| crate::text::line(name));
+        let message = format!(
+            "block {front} is {} to {} m deep and block {back} {} to {} m, so no plane goes through both",
+            short(*near),
+            short(*end),
+            short(*start),
+            short(*far)
+        );
+        return Err(refused(
+            message,
+            "a scene is a plane structure: move the blocks to one depth, or import those of one depth",
+        ));
+    }
+    let thicknesses = depths.iter().map(|(_, [start, end])| end - start);
+    let (thin, thick) = thicknesses.fold((f64::INFINITY, 0.0_f64), |(a, b), d| (a.min(d), b.max(d)));
     if scene.thickness.is_none() {
         if thick - thin > EQUAL_COORDINATE_TOL * thick {
             let message = format!("its blocks are {thin} to {thick} m thick, and a plane scene has one thickness");
@@ -162,7 +182,7 @@ pub(super) fn read(text: &str, options: &Options, planes: &[Plane]) -> Result<Im
         remarks.push(Remark { element: String::new(), message: NO_GROUND.into(), help: help.into() });
         notes.extend(list());
     }
-    Ok(Imported { scene, notes, remarks, snapped: Vec::new() })
+    Ok(Imported { scene, notes, remarks, snapped: Vec::new(), left_out: Default::default() })
 }
 
 /// Returns a message that names the first block that is not a prism perpendicular to one of the planes. If
@@ -309,7 +329,7 @@ fn section(solid: &AssemblyBlock, [right, up, across]: [usize; 3]) -> Option<Sec
     }
     let is_on_edge = |p: &Point| edges.iter().any(|edge| edge.distance(*p) <= 2.0 * tolerance);
     let is_prism = sides.iter().all(is_on_edge);
-    is_prism.then_some(Section { polygon, thickness: high - low })
+    is_prism.then_some(Section { polygon, ends: [low, high] })
 }
 
 /// Returns the outlines around the faces of one end, without corners on straight lines, the largest first (step 2).

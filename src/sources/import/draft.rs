@@ -1,8 +1,15 @@
 //! [`Draft`]: the elements of a drawing in metres with y up, before curves are flattened and names are made unique;
 //! [`Scale`], the length of its unit in metres.
 
+use std::collections::BTreeMap;
+
+use super::MAX_NAMES;
 use super::subpath::{Affine, Subpath};
-use crate::geometry::Point;
+use crate::geometry::{Bounds, Point};
+use crate::text::first_of;
+
+/// The largest number of places that one remark lists.
+const MAX_PLACES: usize = 3;
 
 /// The elements of a drawing.
 #[derive(Debug, Default)]
@@ -10,11 +17,17 @@ pub(super) struct Draft {
     pub(super) title: String,
     /// The unit of the drawing in metres.
     pub(super) unit: f64,
+    /// The page of the drawing, in metres.
+    pub(super) page: Option<Bounds>,
     pub(super) parts: Vec<Part>,
     /// Sentences that explain how the drawing was read.
     pub(super) notes: Vec<String>,
     /// Elements that were not imported, or not exactly as drawn.
     pub(super) remarks: Vec<Remark>,
+    /// How many elements of each kind are left out, such as 2 for `line`.
+    pub(super) left_out: BTreeMap<&'static str, usize>,
+    /// The elements that are left out on purpose, by the reason.
+    pub(super) skipped: BTreeMap<String, Vec<String>>,
 }
 
 /// A message about an element that could not be imported exactly.
@@ -29,7 +42,7 @@ pub struct Remark {
 }
 
 /// One element of a drawing.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Part {
     pub(super) kind: Role,
     /// The name in the drawing, possibly empty or a duplicate.
@@ -41,10 +54,35 @@ pub(super) struct Part {
     pub(super) clips: Vec<Subpath>,
     pub(super) fill: Option<[u8; 3]>,
     pub(super) values: Values,
+    /// Open lines of one group are joined to outlines before lines of other groups are considered.
+    pub(super) group: usize,
+    /// Whether the part is the boundary of a hatch, whose outline may also be drawn.
+    pub(super) is_fill: bool,
+}
+
+impl Part {
+    /// Creates a part without clip paths, fill and values; without a role, it is a block.
+    pub(super) fn new(kind: Option<Role>, name: &str, element: String, form: PartGeometry) -> Part {
+        Part {
+            kind: kind.unwrap_or(Role::Block),
+            name: name.to_owned(),
+            element,
+            form,
+            clips: Vec::new(),
+            fill: None,
+            values: Values::default(),
+            group: 0,
+            is_fill: false,
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        matches!(&self.form, PartGeometry::Subpaths(subpaths, _) if subpaths.is_empty())
+    }
 }
 
 /// The geometry of a part.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum PartGeometry {
     /// The outlines of one element.
     Subpaths(Vec<Subpath>, FillRule),
@@ -75,6 +113,8 @@ pub(super) struct Values {
     pub(super) friction: Option<f64>,
     pub(super) density: Option<f64>,
     pub(super) weight: Option<f64>,
+    /// Mass in kg.
+    pub(super) mass: Option<f64>,
 }
 
 impl Role {
@@ -111,6 +151,43 @@ impl Draft {
     pub(super) fn remark(&mut self, element: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
         self.remarks.push(Remark { element: element.into(), message: message.into(), help: help.into() });
     }
+
+    /// Reports an element that is left out, and counts it as one `what`, such as `line`.
+    pub(super) fn lose(&mut self, what: &'static str, element: &str, why: &str, help: &str) {
+        self.remark(element, format!("{why}; left out"), help);
+        *self.left_out.entry(what).or_default() += 1;
+    }
+
+    /// Notes that an element is left out on purpose, because of its name, its layer or an option.
+    pub(super) fn skip(&mut self, why: &str, element: String) {
+        self.skipped.entry(why.to_owned()).or_default().push(element);
+    }
+
+    /// Returns the notes and remarks. Equal ones are one, with the first of their elements and the number of the others.
+    pub(super) fn told(&mut self) -> (Vec<String>, Vec<Remark>) {
+        let mut notes = std::mem::take(&mut self.notes);
+        for (why, elements) in std::mem::take(&mut self.skipped) {
+            notes.push(format!("left out, because {why}: {}", first_of(elements, MAX_NAMES)));
+        }
+        (notes, merged(std::mem::take(&mut self.remarks)))
+    }
+}
+
+/// Merges remarks with the same message and help. The merged remark names the first of their elements, and counts the
+/// others.
+pub(super) fn merged(remarks: Vec<Remark>) -> Vec<Remark> {
+    let mut places: BTreeMap<(String, String), usize> = BTreeMap::new();
+    let mut kept: Vec<(Remark, Vec<String>)> = Vec::new();
+    for remark in remarks {
+        let place = *places.entry((remark.message.clone(), remark.help.clone())).or_insert(kept.len());
+        match kept.get_mut(place) {
+            Some((_, elements)) if elements.last() == Some(&remark.element) => {}
+            Some((_, elements)) => elements.push(remark.element),
+            None => kept.push((remark.clone(), vec![remark.element])),
+        }
+    }
+    let one = |(remark, elements): (Remark, Vec<String>)| Remark { element: first_of(elements, MAX_PLACES), ..remark };
+    kept.into_iter().map(one).collect()
 }
 
 /// The options for the size of the drawing.

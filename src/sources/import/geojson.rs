@@ -18,20 +18,35 @@ pub(super) const NAME_KEYS: [&str; 8] =
 /// # Errors
 /// Returns the reason why the text cannot be read as GeoJSON.
 pub(super) fn read(text: &str, scale: f64, is_scale_given: bool, naming: &Naming<'_>) -> Result<Draft, String> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let value: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
-    let Value::Object(object) = &value else {
-        return Err("its outermost value is not an object".into());
+    let whole = match values(text)?.as_mut_slice() {
+        [Value::Object(object)] => std::mem::take(object),
+        [Value::Array(list)] => collection(std::mem::take(list)),
+        list => collection(list.iter_mut().map(Value::take).collect()),
     };
-    if object.contains_key("drystone") {
+    if whole.contains_key("drystone") {
         return Err("it is not GeoJSON but already a scene file".into());
     }
-    if !is_scale_given && let Some(why) = degrees_problem(object) {
+    if !is_scale_given && let Some(why) = degrees_problem(&whole) {
         return Err(why);
     }
     let mut reader = Reader { draft: Draft::default(), scale, naming };
-    reader.object(object, "", &Properties::default());
+    reader.object(&whole, "", &Properties::default());
     Ok(reader.draft)
+}
+
+/// Returns the values of a JSON text: one, or one per line as in a sequence of features. A record separator may begin each
+/// line (RFC 8142).
+///
+/// # Errors
+/// Returns the message of the parser.
+pub(super) fn values(text: &str) -> Result<Vec<Value>, String> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text).replace('\u{1e}', " ");
+    serde_json::Deserializer::from_str(&text).into_iter().collect::<Result<_, _>>().map_err(|e| e.to_string())
+}
+
+/// Wraps features that stand in a plain list, or one per line, into a collection.
+fn collection(features: Vec<Value>) -> Map<String, Value> {
+    Map::from_iter([("type".into(), "FeatureCollection".into()), ("features".into(), features.into())])
 }
 
 /// The properties of a feature.
@@ -58,19 +73,22 @@ impl Reader<'_> {
             "Feature" => {
                 let about = self.properties(object, at);
                 if about.kind == Some(Role::Ignored) {
-                    let note = format!("{} is left out: {}", labelled(at, &about.name), self.naming.why_ignored());
-                    self.draft.notes.push(note);
+                    self.draft.skip(self.naming.why_ignored(), labelled(at, &about.name));
                     return;
                 }
                 match object.get("geometry") {
                     Some(Value::Object(geometry)) => {
                         self.object(geometry, &below(at, "geometry"), &about);
                     }
-                    _ => self.remark(at, &about, "it has no geometry; left out"),
+                    _ => self.lose("element", at, &about, "it has no geometry"),
                 }
             }
-            "Polygon" => match object.get("coordinates").and_then(|c| self.rings(c)) {
-                Some(rings) => self.polygon(rings, at, about),
+            "Polygon" | "MultiLineString" => match object.get("coordinates").and_then(|c| self.rings(c)) {
+                Some(rings) => self.outlines(rings, kind == "Polygon", at, about),
+                None => self.unreadable(at, about),
+            },
+            "LineString" => match object.get("coordinates").and_then(|c| self.ring(c)) {
+                Some(line) => self.outlines(vec![line], false, at, about),
                 None => self.unreadable(at, about),
             },
             "MultiPolygon" => match object.get("coordinates").and_then(Value::as_array) {
@@ -78,7 +96,7 @@ impl Reader<'_> {
                     for (i, polygon) in polygons.iter().enumerate() {
                         let at = format!("{}[{i}]", below(at, "coordinates"));
                         match self.rings(polygon) {
-                            Some(rings) => self.polygon(rings, &at, about),
+                            Some(rings) => self.outlines(rings, true, &at, about),
                             None => self.unreadable(&at, about),
                         }
                     }
@@ -89,25 +107,25 @@ impl Reader<'_> {
                 Some(spot) => self.part(PartGeometry::Point(spot), at, about),
                 None => self.unreadable(at, about),
             },
-            "Point" | "MultiPoint" | "LineString" | "MultiLineString" => {
-                self.remark(at, about, &format!("a {kind} encloses no area; left out"));
+            "Point" | "MultiPoint" => {
+                self.lose("point", at, about, "a point encloses no area");
             }
-            "" => self.remark(at, about, "it has no type; left out"),
-            _ => self.remark(at, about, &format!("{kind} is not a type of GeoJSON; left out")),
+            "" => self.lose("element", at, about, "it has no type"),
+            _ => self.lose("element", at, about, &format!("{kind} is not a type of GeoJSON")),
         }
     }
 
     fn each(&mut self, object: &Map<String, Value>, key: &str, at: &str, about: &Properties) {
         let at = below(at, key);
         let Some(list) = object.get(key).and_then(Value::as_array) else {
-            self.remark(&at, about, "it is not a list; left out");
+            self.lose("element", &at, about, "it is not a list");
             return;
         };
         for (i, entry) in list.iter().enumerate() {
             let at = format!("{at}[{i}]");
             match entry {
                 Value::Object(entry) => self.object(entry, &at, about),
-                _ => self.remark(&at, about, "it is not an object; left out"),
+                _ => self.lose("element", &at, about, "it is not an object"),
             }
         }
     }
@@ -149,6 +167,7 @@ impl Reader<'_> {
             friction: self.number(properties, "friction", at, &about),
             density: self.number(properties, "density", at, &about),
             weight: self.number(properties, "weight", at, &about),
+            mass: self.number(properties, "mass", at, &about),
         };
         if let Some(fill) = properties.get("fill").and_then(Value::as_str) {
             match fill.trim().parse::<svgtypes::Color>() {
@@ -171,11 +190,11 @@ impl Reader<'_> {
     }
 
     fn rings(&self, value: &Value) -> Option<Vec<Vec<Point>>> {
-        let ring = |ring: &Value| {
-            let points = ring.as_array()?.iter().map(|p| self.point(p));
-            points.collect::<Option<Vec<Point>>>()
-        };
-        value.as_array()?.iter().map(ring).collect()
+        value.as_array()?.iter().map(|ring| self.ring(ring)).collect()
+    }
+
+    fn ring(&self, value: &Value) -> Option<Vec<Point>> {
+        value.as_array()?.iter().map(|p| self.point(p)).collect()
     }
 
     fn point(&self, value: &Value) -> Option<Point> {
@@ -184,25 +203,23 @@ impl Reader<'_> {
         Some(Point::new(number(0)?, number(1)?) * self.scale)
     }
 
-    fn polygon(&mut self, rings: Vec<Vec<Point>>, at: &str, about: &Properties) {
-        let subpaths = rings.iter().filter_map(|r| Subpath::closed(r)).collect();
+    fn outlines(&mut self, rings: Vec<Vec<Point>>, closed: bool, at: &str, about: &Properties) {
+        let outline = |ring: &Vec<Point>| Some(Subpath { closed, ..Subpath::closed(ring)? });
+        let subpaths = rings.iter().filter_map(outline).collect();
         self.part(PartGeometry::Subpaths(subpaths, FillRule::EvenOdd), at, about);
     }
 
     fn part(&mut self, form: PartGeometry, at: &str, about: &Properties) {
-        self.draft.parts.push(Part {
-            kind: about.kind.unwrap_or(Role::Block),
-            name: about.name.clone(),
-            element: labelled(at, &about.name),
-            form,
-            clips: Vec::new(),
-            fill: about.fill,
-            values: about.values,
-        });
+        let part = Part::new(about.kind, &about.name, labelled(at, &about.name), form);
+        self.draft.parts.push(Part { fill: about.fill, values: about.values, ..part });
     }
 
     fn unreadable(&mut self, at: &str, about: &Properties) {
-        self.remark(at, about, "its coordinates do not have the form that its type needs; left out");
+        self.lose("element", at, about, "its coordinates do not have the form that its type needs");
+    }
+
+    fn lose(&mut self, what: &'static str, at: &str, about: &Properties, why: &str) {
+        self.draft.lose(what, &labelled(at, &about.name), why, "");
     }
 
     fn remark(&mut self, at: &str, about: &Properties, message: &str) {
@@ -303,18 +320,16 @@ mod tests {
             { "type": "Feature", "properties": null, "geometry": null }, 7 ] }"##;
         let draft = read(text, 2.0, true, &Naming::default()).expect("readable");
         let kinds: Vec<Role> = draft.parts.iter().map(|p| p.kind).collect();
-        assert_eq!(kinds, [Role::Ground, Role::Block, Role::Block, Role::Robot]);
+        assert_eq!(kinds, [Role::Ground, Role::Block, Role::Block, Role::Robot, Role::Block]);
         assert_eq!(draft.parts[0].values.friction, Some(0.4));
         assert_eq!(draft.parts[1].name, "12");
         assert_eq!(draft.parts[1].fill, Some([0x8b, 0x6b, 0x3d]));
         assert!(matches!(draft.parts[3].form, PartGeometry::Point(p) if p == Point::new(0.4, 0.4)));
         let remarks: Vec<&str> = draft.remarks.iter().map(|r| r.message.as_str()).collect();
-        assert_eq!(remarks.len(), 5, "{remarks:?}");
+        assert_eq!(remarks.len(), 4, "{remarks:?}");
         assert!(remarks[1].contains("its kind `cloud` is not block, ground, robot or ignore"));
         assert_eq!(draft.remarks[0].element, "features[1] \"12\"");
-        assert!(
-            read("[1]", 1.0, true, &Naming::default()).is_err() && read("{", 1.0, true, &Naming::default()).is_err()
-        );
+        assert!(read("{", 1.0, true, &Naming::default()).is_err());
     }
 
     fn says(coordinates: &str, crs: &str) -> Option<String> {

@@ -3,8 +3,8 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | 1. read the drawing into a `Draft`: subpaths in metres, y up; transforms are applied, roles follow from layers and names | `svg`, `dxf`, `geojson`, `wkt` |
-//! | 2. flatten curves into chords, and close open ends | `subpath` |
+//! | 1. read the drawing into a `Draft`: subpaths in metres, y up; transforms are applied, roles follow from layers and names | `svg`, `dxf`, `geojson`, `wkt`, `box_list` |
+//! | 2. leave out specks, repeats and frames; make outlines of lines that meet; flatten curves into chords | `tidy`, `network`, `subpath` |
 //! | 3. find regions and their holes by the fill rule | `region` |
 //! | 4. refuse drawings with too many outlines, or with too many that overlap | `limit` |
 //! | 5. snap corners and edges that nearly touch, so that interfaces are found | `outline` |
@@ -16,29 +16,37 @@
 //! imported.
 
 mod limit;
+mod box_list;
 mod choice;
 mod draft;
 mod dxf;
+mod format;
 mod scene_file;
 mod compas;
 mod contact_list;
 mod geojson;
 mod name;
 mod naming;
+mod network;
 mod outline;
 mod snapping;
 mod region;
 mod svg;
 mod stone;
 mod subpath;
+mod table;
+mod tidy;
 mod trial;
 mod wkt;
+
+use std::collections::BTreeMap;
 
 use choice::Chosen;
 #[cfg(feature = "python")]
 pub(crate) use compas::sections;
 pub use draft::Remark;
 use draft::{Draft, PartGeometry, Role, Scale};
+pub use format::Format;
 use naming::Naming;
 use outline::Outlines;
 pub use stone::{STONES, Stone};
@@ -56,37 +64,6 @@ const LENGTH_TOL: f64 = 1e-3;
 const MAX_GAP_TO_THICKNESS: f64 = 0.25;
 /// The largest number of names that a message lists.
 const MAX_NAMES: usize = 8;
-
-/// The format of a drawing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Format {
-    /// Scalable Vector Graphics from Inkscape, Illustrator or this library.
-    Svg,
-    /// Drawing Exchange Format, in text form, from CAD programs.
-    Dxf,
-    /// GeoJSON: polygons with properties.
-    GeoJson,
-    /// Well-known text: one geometry per line.
-    Wkt,
-    /// A list of bodies with mass and centre, and of their contacts: rows of numbers, or JSON.
-    Contacts,
-    /// An assembly of `compas_assembly`, as JSON.
-    Compas,
-}
-
-impl Format {
-    /// Returns the format of a JSON text by its content: a contact list, an assembly of COMPAS, or else GeoJSON.
-    pub fn of_json(text: &str) -> Format {
-        if contact_list::is_contact_list(text) {
-            Format::Contacts
-        } else if compas::is_assembly(text) {
-            Format::Compas
-        } else {
-            Format::GeoJson
-        }
-    }
-}
 
 /// The options of an import, and the properties of a scene that no drawing contains.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -148,6 +125,8 @@ pub struct Imported {
     pub remarks: Vec<Remark>,
     /// The bodies that were moved so that they touch.
     pub snapped: Vec<Snapped>,
+    /// How many elements of each kind the scene lacks, such as 2 for `line`.
+    pub left_out: BTreeMap<&'static str, usize>,
 }
 
 /// A body whose corners were moved or inserted so that it touches its neighbours.
@@ -182,7 +161,12 @@ pub struct DrawingProblems {
 
 impl DrawingProblems {
     fn of(problems: Vec<Remark>) -> DrawingProblems {
+        let problems = draft::merged(problems);
         DrawingProblems { problems, remarks: Vec::new(), notes: Vec::new(), overlapping: None }
+    }
+
+    fn with(self, (notes, remarks): (Vec<String>, Vec<Remark>)) -> DrawingProblems {
+        DrawingProblems { remarks, notes, ..self }
     }
 
     fn new(why: impl Into<String>) -> DrawingProblems {
@@ -218,16 +202,53 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
     if !problems.is_empty() {
         return Err(DrawingProblems::of(problems));
     }
+    let read = |format: Format| read_as(text, format, options);
+    read(format).map_err(|problems| match Format::of_text(text).filter(|found| *found != format) {
+        Some(found) => DrawingProblems::of(vec![Remark {
+            element: String::new(),
+            message: format!("it is not {}: this is {}", format.name(), found.name()),
+            help: format!("import it as {}: rename the file, or give --format", found.name()),
+        }]),
+        None => problems,
+    })
+}
+
+/// Imports a contact list of several files: each has a name for messages, and its text. Bodies and contacts may be in
+/// different files.
+///
+/// # Errors
+/// Returns an error like [`import`].
+pub fn import_files(files: &[(&str, &str)], options: &Options) -> Result<Imported, DrawingProblems> {
+    let problems = option_problems(options);
+    if !problems.is_empty() {
+        return Err(DrawingProblems::of(problems));
+    }
+    let other =
+        files.iter().find_map(|file| Some((file.0, Format::of_text(file.1)?)).filter(|f| f.1 != Format::Contacts));
+    if let Some((name, format)) = other {
+        let why =
+            format!("several files are read together only if they are contact lists; {name} is {}", format.name());
+        return Err(DrawingProblems::new(why));
+    }
+    complete(contact_list::read(files, options)?)
+}
+
+/// Imports a text in this format.
+fn read_as(text: &str, format: Format, options: &Options) -> Result<Imported, DrawingProblems> {
     if format != Format::Svg && options.frame.is_some() {
         return Err(DrawingProblems::new("--frame needs a figure by drystone; this drawing has no frames"));
     }
+    // Spreadsheets and databases write outlines as a column of well-known text, and simulators write boxes.
+    let format = match format {
+        Format::Contacts if wkt::is_table(text) => Format::Wkt,
+        Format::Contacts if format::has_boxes(text) => Format::Boxes,
+        format => format,
+    };
     if options.flip_y && matches!(format, Format::Contacts | Format::Compas) {
         return Err(DrawingProblems::new("--flip-y turns drawings upside down; this file is none"));
     }
-    // Spreadsheets and databases write outlines as a column of well-known text.
-    let format = if format == Format::Contacts && wkt::is_table(text) { Format::Wkt } else { format };
     match format {
-        Format::Contacts => complete(contact_list::read(text, options)?),
+        Format::Contacts => complete(contact_list::read(&[("", text)], options)?),
         Format::Compas => complete(compas::read(text, options, &compas::PLANES)?),
         _ => {
             let naming = Naming::new(options, false);
@@ -298,6 +319,7 @@ fn read_draft(text: &str, format: Format, options: &Options, naming: &Naming<'_>
             scaled(&|metres| geojson::read(text, metres, is_given, naming))
         }
         Format::Wkt => scaled(&|metres| Ok(wkt::read(text, metres, naming))),
+        Format::Boxes => scaled(&|metres| box_list::read(text, metres, naming)),
         Format::Contacts | Format::Compas => Err("it is not a drawing".into()),
     }?;
     if options.flip_y {
@@ -349,6 +371,13 @@ fn build_scene(
     options: &Options,
 ) -> Result<Imported, DrawingProblems> {
     let size = outline::size(&mut draft);
+    if size > 0.0 {
+        tidy::leave_dust_out(&mut draft, size);
+        network::join(&mut draft, LENGTH_TOL * size);
+        tidy::leave_fills_out(&mut draft);
+        tidy::leave_frames_out(&mut draft);
+    }
+    let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(LENGTH_TOL * size);
     let close = options.gap.unwrap_or(LENGTH_TOL * size).min(LENGTH_TOL * size);
     if draft.parts.iter().any(|p| matches!(&p.form, PartGeometry::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(|s| s.has_curves() && s.circle().is_none()))) {
@@ -360,10 +389,10 @@ fn build_scene(
     let title = std::mem::take(&mut draft.title);
     let mut outlines = Outlines::new(&mut draft, flatten, close);
     if let Err(why) = outlines.assign_roles(&mut draft, chosen, names) {
-        return Err(DrawingProblems { remarks: draft.remarks, notes: draft.notes, ..DrawingProblems::new(why) });
+        return Err(DrawingProblems::new(why).with(draft.told()));
     }
     if let Some(problem) = structure_problem(&outlines) {
-        return Err(DrawingProblems { remarks: draft.remarks, ..DrawingProblems::of(vec![problem]) });
+        return Err(DrawingProblems::of(vec![problem]).with(draft.told()));
     }
     let gap = options.gap.unwrap_or_else(|| (LENGTH_TOL * size).min(MAX_GAP_TO_THICKNESS * outlines.thinnest()));
     let names = name::unique_names(&outlines);
@@ -381,14 +410,15 @@ fn build_scene(
     match trial::checked(&scene.to_json()) {
         Ok(read) => {
             draft.notes.extend(trial.lonely(&read, &outlines));
-            Ok(Imported { scene, notes: draft.notes, remarks: draft.remarks, snapped })
+            let (notes, remarks) = draft.told();
+            Ok(Imported { scene, notes, remarks, snapped, left_out: draft.left_out })
         }
         Err(problems) => {
             let overlaps = trial.overlaps(&outlines, &problems.list);
             let overlapping = overlaps.is_some().then(|| Box::new(scene));
             let each = || problems.list.iter().map(|p| outlines.located(p)).collect();
             let problems = overlaps.map_or_else(each, |remark| vec![remark]);
-            Err(DrawingProblems { problems, remarks: draft.remarks, notes: Vec::new(), overlapping })
+            Err(DrawingProblems { overlapping, ..DrawingProblems::of(problems).with(draft.told()) })
         }
     }
 }

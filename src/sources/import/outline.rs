@@ -69,8 +69,7 @@ pub(super) fn size(draft: &mut Draft) -> f64 {
     }
     draft.parts = kept;
     for element in out {
-        let message = format!("it has coordinates beyond {MAX_COORDINATE:e} m; left out");
-        draft.remark(element, message, "");
+        draft.lose("outline", &element, &format!("it has coordinates beyond {MAX_COORDINATE:e} m"), "");
     }
     around.map_or(0.0, Bounds::diagonal)
 }
@@ -84,11 +83,13 @@ impl Outlines {
             match part.form {
                 PartGeometry::Point(at) => outlines.robots.push(Robot { name: part.name, element: part.element, at }),
                 PartGeometry::Subpaths(ref subpaths, rule) => {
-                    let rings = closed_rings(draft, &part, subpaths, flatten, close);
+                    let rings: Vec<_> = subpaths.iter().filter_map(|s| s.flattened(flatten, close)).collect();
+                    if rings.is_empty() {
+                        draft.lose("outline", &part.element, "it has no outline", "");
+                    }
                     if limit::has_too_many_pairs(&rings) {
-                        let message =
-                            format!("its {} outlines are too many to find the holes among them; left out", rings.len());
-                        draft.remark(&part.element, message, "break it apart into several paths");
+                        let why = format!("its {} outlines are too many to find the holes among them", rings.len());
+                        draft.lose("outline", &part.element, &why, "break it apart into several paths");
                         continue;
                     }
                     let rings = clipped(draft, &part, rings, flatten);
@@ -239,30 +240,6 @@ fn entry(problem: &Problem, list: &str) -> Option<usize> {
     rest.split(']').next()?.parse().ok()
 }
 
-/// Returns the flattened closed outlines of a part. Open outlines are reported and left out.
-fn closed_rings(draft: &mut Draft, part: &Part, subpaths: &[Subpath], flatten: f64, close: f64) -> Vec<Vec<Corner>> {
-    let mut rings = Vec::new();
-    let mut open = 0;
-    for subpath in subpaths {
-        match subpath.flattened(flatten, close) {
-            Some(ring) => rings.push(ring),
-            None => open += 1,
-        }
-    }
-    if open > 0 {
-        let message = match (open, subpaths.len()) {
-            (1, 1) => "it is open; left out".into(),
-            (open, all) if open == all => format!("all {open} of its outlines are open; left out"),
-            (open, all) => format!("{open} of its {all} outlines are open; these are left out"),
-        };
-        let help = "close it; if it is not a block, give it or its layer a name that begins with ignore";
-        draft.remark(&part.element, message, help);
-    } else if rings.is_empty() {
-        draft.remark(&part.element, "it has no outline; left out", "");
-    }
-    rings
-}
-
 /// Returns the parts of the rings inside all clip paths of `part`. A clip path that is not convex, and does not contain
 /// the rings, is reported and not used.
 fn clipped(draft: &mut Draft, part: &Part, mut rings: Vec<Vec<Corner>>, flatten: f64) -> Vec<Vec<Corner>> {
@@ -306,7 +283,7 @@ fn clipped(draft: &mut Draft, part: &Part, mut rings: Vec<Vec<Corner>>, flatten:
             rings.retain(|ring| ring.len() > 2);
         }
         if rings.is_empty() {
-            draft.remark(&part.element, "its clip path hides it; left out", "");
+            draft.lose("outline", &part.element, "its clip path hides it", "");
         }
     }
     rings
@@ -321,17 +298,17 @@ fn remark_flaws(draft: &mut Draft, part: &Part, flaws: &[PolygonError]) {
                 n => format!(", and in {} more places", n - 1),
             };
             (
-                format!("its outline crosses or touches itself at {}{more}; left out", point(at)),
+                format!("its outline crosses or touches itself at {}{more}", point(at)),
                 "draw it without crossings, or in parts",
             )
         }
         Some(PolygonError::HoleOutside { .. }) => (
-            "its holes overlap or lie outside it; left out".into(),
+            "its holes overlap or lie outside it".into(),
             "draw the holes inside the outline and apart from each other",
         ),
-        _ => ("it encloses no area; left out".into(), "draw it as an outline with an area"),
+        _ => ("it encloses no area".into(), "draw it as an outline with an area"),
     };
-    draft.remark(&part.element, message, help);
+    draft.lose("outline", &part.element, &message, help);
 }
 
 impl Body {

@@ -57,20 +57,21 @@ fn may_contain(outer: Option<Bounds>, inner: Option<Bounds>) -> bool {
 }
 
 /// True if most corners of a ring are inside another ring. Not all corners must be inside, because some may lie on an
-/// edge of the other ring. A corner is inside if a horizontal ray from it crosses the other ring an odd number of
-/// times.
+/// edge of the other ring.
 fn lies_in(ring: &[Corner], other: &[Corner]) -> bool {
-    let inside = |p: Point| {
-        let mut odd = false;
-        for (a, b) in other.iter().zip(other.iter().cycle().skip(1)) {
-            let (a, b) = (a.at, b.at);
-            if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y) {
-                odd = !odd;
-            }
-        }
-        odd
-    };
-    2 * ring.iter().filter(|c| inside(c.at)).count() > ring.len()
+    let other: Vec<Point> = other.iter().map(|c| c.at).collect();
+    2 * ring.iter().filter(|c| is_inside(&other, c.at)).count() > ring.len()
+}
+
+/// True if a point is inside a ring: if a horizontal ray from it crosses the ring an odd number of times.
+pub(super) fn is_inside(ring: &[Point], p: Point) -> bool {
+    crossings(ring, p.y).filter(|x| p.x < *x).count() % 2 == 1
+}
+
+/// Returns where a horizontal line crosses a ring.
+pub(super) fn crossings(ring: &[Point], y: f64) -> impl Iterator<Item = f64> {
+    let sides = ring.iter().zip(ring.iter().cycle().skip(1));
+    sides.filter(move |(a, b)| (a.y > y) != (b.y > y)).map(move |(a, b)| a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y))
 }
 
 #[cfg(test)]

@@ -60,6 +60,7 @@ fn block_entry(body: &Body, name: &str, round: &Rounding) -> BlockEntry {
         holes: (1..body.rings.len()).map(|i| round.ring(body, i)).collect(),
         material: body.fill.map(material),
         weight: body.values.weight,
+        mass: body.values.mass,
         density: body.values.density,
         friction: body.values.friction,
         ..BlockEntry::default()

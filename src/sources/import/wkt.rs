@@ -4,8 +4,8 @@
 use super::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
 use super::geojson::NAME_KEYS;
 use super::naming::Naming;
-use super::subpath::Subpath;
-use crate::geometry::Point;
+use super::subpath::{Segment, Subpath};
+use crate::geometry::{Point, Vector, cross};
 
 /// The largest nesting depth of collections; deeper ones could overflow the stack.
 const MAX_DEPTH: usize = 50;
@@ -32,8 +32,12 @@ pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
                 cells.get(column).map(String::as_str)
             });
             let number_in = |key: &str| cell(key)?.parse().ok();
-            let values =
-                Values { friction: number_in("friction"), density: number_in("density"), weight: number_in("weight") };
+            let values = Values {
+                friction: number_in("friction"),
+                density: number_in("density"),
+                weight: number_in("weight"),
+                mass: number_in("mass"),
+            };
             add(&mut draft, naming, number + 1, &names, geometry.unwrap_or(""), scale, values);
         }
         return draft;
@@ -52,6 +56,14 @@ pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
 /// True if a text is a table with a column of well-known text.
 pub(super) fn is_table(text: &str) -> bool {
     table(text.strip_prefix('\u{feff}').unwrap_or(text)).is_some()
+}
+
+/// True if a line has the word of a geometry before a parenthesis.
+pub(super) fn is_geometry(line: &str) -> bool {
+    let mut reader = Reader::new(named(line).1);
+    let word = reader.kind();
+    let known = ["POINT", "STRING", "POLYGON", "CURVE", "COLLECTION", "SURFACE", "TRIANGLE"];
+    known.iter().any(|ending| word.ends_with(ending)) && (reader.accept('(') || reader.peek_word() == "EMPTY")
 }
 
 /// Returns the separator and the headings of a table with a column of well-known text; `None` for other text.
@@ -86,29 +98,23 @@ fn add(draft: &mut Draft, naming: &Naming<'_>, number: usize, names: &[&str], te
     }
     let kind = names.iter().filter_map(|name| naming.role(name)).next();
     if kind == Some(Role::Ignored) {
-        draft.notes.push(format!("{element} is left out: {}", naming.why_ignored()));
+        draft.skip(naming.why_ignored(), element);
         return;
     }
-    let mut reader = Reader { rest: text, scale, robot: kind == Some(Role::Robot), geometries: Vec::new() };
+    let robot = kind == Some(Role::Robot);
+    let mut reader = Reader { scale, robot, ..Reader::new(text) };
     let read = reader.geometry(0).and_then(|()| {
         if reader.rest.trim().is_empty() { Ok(()) } else { Err(reader.expected_error("the end of the line")) }
     });
     if let Err(why) = read {
-        draft.remark(element, format!("{why}; left out"), "write a line as: name; POLYGON ((0 0, 2 0, 2 1, 0 0))");
+        draft.lose("element", &element, &why, "write a line as: name; POLYGON ((0 0, 2 0, 2 1, 0 0))");
         return;
     }
-    if reader.geometries.is_empty() {
-        draft.remark(&element, "it is empty; left out", "");
+    for (what, why) in &reader.lost {
+        draft.lose(what, &element, why, "");
     }
-    draft.parts.extend(reader.geometries.into_iter().map(|form| Part {
-        kind: kind.unwrap_or(Role::Block),
-        name: name.to_owned(),
-        element: element.clone(),
-        form,
-        clips: Vec::new(),
-        fill: None,
-        values,
-    }));
+    let part = |form| Part { values, ..Part::new(kind, name, element.clone(), form) };
+    draft.parts.extend(reader.geometries.into_iter().map(part));
 }
 
 /// Splits a line into name and geometry, at the last semicolon or tab before the first parenthesis. The prefix
@@ -131,32 +137,47 @@ struct Reader<'t> {
     /// Whether points are allowed. They are allowed only as grip points of robots.
     robot: bool,
     geometries: Vec<PartGeometry>,
+    /// What encloses no area or is not known, with the reason.
+    lost: Vec<(&'static str, String)>,
 }
 
-impl Reader<'_> {
+impl<'t> Reader<'t> {
+    fn new(rest: &'t str) -> Reader<'t> {
+        Reader { rest, scale: 1.0, robot: false, geometries: Vec::new(), lost: Vec::new() }
+    }
+
+    /// Reads a geometry, and its members if it is a collection. A member that encloses no area, or of an unknown kind, does
+    /// not concern the others.
     fn geometry(&mut self, depth: usize) -> Result<(), String> {
         if depth > MAX_DEPTH {
             return Err(format!("collections are nested more than {MAX_DEPTH} levels deep"));
         }
-        let mut word = self.word();
+        let word = self.kind();
         if word.is_empty() {
             return Err(self.expected_error("a geometry such as POLYGON"));
         }
-        if matches!(self.peek_word().as_str(), "Z" | "M" | "ZM") {
-            self.word();
-        }
-        for ending in ["ZM", "Z", "M"] {
-            if let Some(plain) = word.strip_suffix(ending).filter(|p| p.ends_with(['N', 'T'])) {
-                word = plain.to_owned();
-            }
-        }
         if self.peek_word() == "EMPTY" {
             self.word();
+            self.lost.push(("empty geometry", "it is empty".into()));
             return Ok(());
         }
         match word.as_str() {
-            "POLYGON" => self.polygon(),
-            "MULTIPOLYGON" => self.list(Self::polygon),
+            "POLYGON" | "CURVEPOLYGON" | "TRIANGLE" => self.surface(),
+            "MULTIPOLYGON" | "MULTISURFACE" => self.list(|reader| match reader.peek_word().is_empty() {
+                true => reader.surface(),
+                false => reader.geometry(depth + 1),
+            }),
+            "LINESTRING" | "CIRCULARSTRING" | "COMPOUNDCURVE" => {
+                let line = self.curve(&word)?;
+                self.add(Vec::from_iter(line));
+                Ok(())
+            }
+            "MULTILINESTRING" | "MULTICURVE" => self.list(|reader| {
+                let word = reader.kind();
+                let line = reader.curve(&word)?;
+                reader.add(Vec::from_iter(line));
+                Ok(())
+            }),
             "POINT" if self.robot => {
                 self.expect('(')?;
                 let spot = self.point()?;
@@ -164,24 +185,80 @@ impl Reader<'_> {
                 self.expect(')')
             }
             "GEOMETRYCOLLECTION" => self.list(|reader| reader.geometry(depth + 1)),
-            "POINT" | "LINESTRING" | "MULTIPOINT" | "MULTILINESTRING" => Err(format!("a {word} encloses no area")),
-            _ => Err(format!("{word} is not a known geometry")),
+            "POINT" | "MULTIPOINT" => self.pass_over("point", "a point encloses no area".into()),
+            _ => self.pass_over("element", format!("{word} is not a known geometry")),
         }
     }
 
-    fn polygon(&mut self) -> Result<(), String> {
-        let mut subpaths = Vec::new();
+    /// Reads the word that names a geometry, without the letters that announce heights and measures.
+    fn kind(&mut self) -> String {
+        let mut word = self.word();
+        if matches!(self.peek_word().as_str(), "Z" | "M" | "ZM") {
+            self.word();
+        }
+        for ending in ["ZM", "Z", "M"] {
+            if let Some(plain) = word.strip_suffix(ending).filter(|p| p.ends_with(['N', 'T', 'G', 'E'])) {
+                word = plain.to_owned();
+            }
+        }
+        word
+    }
+
+    /// Skips the list in parentheses that follows, and reports it as left out.
+    fn pass_over(&mut self, what: &'static str, why: String) -> Result<(), String> {
+        self.expect('(')?;
+        let mut depth = 1;
+        while depth > 0 {
+            let Some(end) = self.rest.find(['(', ')']) else { return self.expect(')') };
+            depth = if self.rest[end..].starts_with('(') { depth + 1 } else { depth - 1 };
+            self.rest = &self.rest[end + 1..];
+        }
+        self.lost.push((what, why));
+        Ok(())
+    }
+
+    fn add(&mut self, outlines: Vec<Subpath>) {
+        self.geometries.push(PartGeometry::Subpaths(outlines, FillRule::EvenOdd));
+    }
+
+    /// Reads the outline of a polygon, and its holes.
+    fn surface(&mut self) -> Result<(), String> {
+        let mut outlines = Vec::new();
         self.list(|reader| {
-            let mut points = Vec::new();
-            reader.list(|reader| {
-                points.push(reader.point()?);
-                Ok(())
-            })?;
-            subpaths.extend(Subpath::closed(&points));
+            let word = reader.kind();
+            outlines.extend(reader.curve(&word)?.into_iter().map(|curve| Subpath { closed: true, ..curve }));
             Ok(())
         })?;
-        self.geometries.push(PartGeometry::Subpaths(subpaths, FillRule::EvenOdd));
+        self.add(outlines);
         Ok(())
+    }
+
+    /// Reads the points of a line or curve, whose kind was `word`. Returns nothing if it has no points.
+    fn curve(&mut self, word: &str) -> Result<Option<Subpath>, String> {
+        if word == "COMPOUNDCURVE" {
+            let mut whole: Option<Subpath> = None;
+            self.list(|reader| {
+                let word = reader.kind();
+                match (&mut whole, reader.curve(&word)?) {
+                    (Some(whole), Some(next)) => whole.segments.extend(next.segments),
+                    (whole, next) => *whole = next,
+                }
+                Ok(())
+            })?;
+            return Ok(whole);
+        }
+        let mut points = Vec::new();
+        self.list(|reader| {
+            points.push(reader.point()?);
+            Ok(())
+        })?;
+        let Some(line) = Subpath::closed(&points) else { return Ok(None) };
+        let arcs = |three: &[Point]| arcs(three[0], three[1], three[2]);
+        let segments = match word {
+            "CIRCULARSTRING" => points.windows(3).step_by(2).flat_map(arcs).collect(),
+            _ => line.segments,
+        };
+        Ok(Some(Subpath { segments, closed: false, ..line }))
     }
 
     fn list(&mut self, mut entry: impl FnMut(&mut Self) -> Result<(), String>) -> Result<(), String> {
@@ -255,6 +332,16 @@ impl Reader<'_> {
     }
 }
 
+/// Returns the two arcs of the circle through three points; one circle, if the first point is also the last.
+fn arcs(from: Point, middle: Point, to: Point) -> [Segment; 2] {
+    let chord = to - from;
+    // The angle of an arc is twice the angle that its chord makes with the whole chord at the other end (Euclid III.20),
+    // and a bulge is the tangent of a quarter of it.
+    let bulge = |a: Vector, b: Vector| libm::tan(libm::atan2(cross(a, b), a.dot(&b)) / 2.0);
+    let [first, second] = if from == to { [1.0; 2] } else { [bulge(chord, to - middle), bulge(middle - from, chord)] };
+    [Segment::bulged(from, middle, first), Segment::bulged(middle, to, second)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,17 +363,25 @@ mod tests {
                 ("a", Role::Block),
                 ("", Role::Block),
                 ("robot-1", Role::Robot),
-                ("", Role::Block)
+                ("", Role::Block),
+                // A line, which may be part of an outline.
+                ("b", Role::Block)
             ]
         );
         assert!(matches!(&draft.parts[2].form, PartGeometry::Subpaths(subpaths, _) if subpaths.len() == 2));
         assert!(matches!(draft.parts[4].form, PartGeometry::Point(p) if p == Point::new(0.2, 0.3)));
         let remarks: Vec<&str> = draft.remarks.iter().map(|r| r.message.as_str()).collect();
-        assert_eq!(remarks.len(), 5, "{remarks:?}");
-        assert_eq!(remarks[0], "a LINESTRING encloses no area; left out");
-        assert_eq!(remarks[1], "there is `x))` where a number should be; left out");
-        assert_eq!(draft.remarks[0].element, "line 9 \"b\"");
-        assert_eq!(draft.notes.len(), 1);
+        assert_eq!(
+            remarks,
+            [
+                "it is empty; left out",
+                "there is `x))` where a number should be; left out",
+                "it is empty; left out",
+                "there is `x` where the end of the line should be; left out",
+                "there is `(` where a geometry such as POLYGON should be; left out"
+            ]
+        );
+        assert_eq!(draft.skipped.len(), 1);
     }
 
     #[test]

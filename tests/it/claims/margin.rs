@@ -134,7 +134,8 @@ fn the_figure_of_a_margin_states_the_interval_of_the_result() {
         let ends = [&interval[0], &interval[1]].map(Value::as_f64);
         // Ends are written with three digits.
         let near = |exact: f64| {
-            let numbers = words.split([' ', ',']).filter_map(|word| word.parse::<f64>().ok());
+            let plain = words.replace("×10⁶", "e6").replace("×10⁷", "e7").replace("×10⁸", "e8");
+            let numbers: Vec<f64> = plain.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
             numbers.into_iter().any(|value| (value - exact).abs() <= 1e-2 * exact)
         };
         if number_of == 0 {

@@ -163,7 +163,7 @@ fn defaults_and_units_are_those_of_the_page() {
     assert_claims(vec![
         Claim("default `[0, -9.81]`", file(json!({})), Result(WEIGHT, json!(9.81))),
         Claim(
-            "default `1` | Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one.",
+            "default `1` | Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one;",
             file(json!({})),
             Result(WEIGHT, json!(9.81)),
         ),

@@ -36,7 +36,7 @@ fn a_drawing_becomes_a_scene_that_check_accepts() {
 }
 
 #[test]
-fn standard_input_and_output_need_the_format() {
+fn the_format_of_standard_input_is_given_or_shown_by_its_content() {
     let bench = bench();
     let ran = bench.run_with("import - --format svg --quiet", DRAWING.as_bytes());
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
@@ -44,12 +44,11 @@ fn standard_input_and_output_need_the_format() {
     let again = bench.run_with("import - --format svg -o -", DRAWING.as_bytes());
     assert_eq!(again.out, ran.out, "the same drawing has the same bytes");
     let unspecified = bench.run_with("import -", DRAWING.as_bytes());
-    assert_eq!(unspecified.code, 2);
-    assert!(
-        unspecified.err.contains("give --format svg, dxf, geojson, wkt, contacts or compas"),
-        "{}",
-        unspecified.err
-    );
+    assert_eq!((unspecified.code, unspecified.out), (0, ran.out));
+    let unknown = bench.run_with("import -", b"a letter\nto a friend\n");
+    assert_eq!(unknown.code, 2);
+    let remedy = "give --format svg, dxf, geojson, wkt, contacts, boxes or compas";
+    assert!(unknown.err.contains(remedy), "{}", unknown.err);
     let wkt = bench.run_with("import - --format wkt", b"a; POLYGON ((0 0, 2 0, 2 1))");
     assert!(wkt.code == 0 && wkt.out.contains(r#""id": "a""#), "{}", wkt.err);
 }

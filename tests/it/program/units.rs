@@ -174,6 +174,6 @@ fn notices_have_the_units_of_the_file() {
     words.extend(analysis.frames.iter().flat_map(|f| f.notices.clone()));
     words.extend(analysis.frames.iter().flat_map(|f| &f.doubts).map(ToString::to_string));
     let words = words.join("\n");
-    assert!(words.contains("2.00e-2 mm"), "{words}");
+    assert!(words.contains("0.02 mm"), "{words}");
     assert!(!words.contains("e-5 m"), "{words}");
 }

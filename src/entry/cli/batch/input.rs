@@ -103,10 +103,6 @@ fn is_whole(path: &Path) -> bool {
     ending(path) == "json"
 }
 
-fn is_scenes(path: &Path) -> bool {
-    ["json", "ndjson", "jsonl"].contains(&ending(path).as_str())
-}
-
 /// Returns the scene files in the folder `path`, sorted by name. If `path` is not a folder, returns only `path`.
 /// Returns an error if nothing is at `path`, or if the folder has no scene files.
 fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
@@ -118,15 +114,7 @@ fn scenes_of(path: &Path) -> Result<Vec<PathBuf>, CliError> {
     if !found.is_dir() {
         return Ok(vec![path.to_owned()]);
     }
-    let entries = fs::read_dir(path).map_err(|error| not_read(error.to_string()))?;
-    let mut files = Vec::new();
-    for entry in entries {
-        let file = entry.map_err(|error| not_read(error.to_string()))?.path();
-        if is_scenes(&file) && file.is_file() {
-            files.push(file);
-        }
-    }
-    files.sort();
+    let files = source::files_in(path, &["json", "ndjson", "jsonl"], false)?;
     if files.is_empty() {
         return Err(not_read("the folder has no .json, .ndjson or .jsonl file".into()));
     }

@@ -97,7 +97,7 @@ impl Preview<'_> {
         let render = self.render.started();
         let level = &render.draw.figure.level;
         let read = |scene: &PathBuf| source::read(std::slice::from_ref(scene), render.frame, level);
-        let scenes = source::files(&self.render.scenes)?;
+        let scenes = source::files(&self.render.scenes)?.scenes;
         let read: Vec<Result<_, Vec<CliError>>> = scenes.iter().map(read).collect();
         let mut state = self.state();
         if state.scenes != scenes {

@@ -1,12 +1,10 @@
 //! [`Task`]: one scene of a report, or two scenes that the report compares.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::Report;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::source;
-use crate::read::file::ending;
 
 /// One scene of a report, or two scenes that the report compares.
 pub(super) enum Task {
@@ -98,26 +96,7 @@ impl Task {
     }
 }
 
-/// Returns all `.json` files in a folder and its subfolders, sorted by path. Links to folders are not followed: they
-/// may form a cycle.
+/// Returns all `.json` files in a folder and its subfolders, sorted by path.
 fn below(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
-    let unread = |path: &Path, error: std::io::Error| CliError::not_read(path.display(), error);
-    let mut files = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        let entries = fs::read_dir(&folder).map_err(|e| unread(&folder, e))?;
-        for entry in entries {
-            let entry = entry.map_err(|e| unread(&folder, e))?;
-            let kind = entry.file_type().map_err(|e| unread(&entry.path(), e))?;
-            let path = entry.path();
-
-            if kind.is_dir() {
-                folders.push(path);
-            } else if ending(&path) == "json" && path.is_file() {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    Ok(files)
+    source::files_in(folder, &["json"], true)
 }

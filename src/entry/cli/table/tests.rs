@@ -19,7 +19,7 @@ fn assert_fits(name: &str, analysis: &Analysis) {
 
 #[test]
 fn the_explanation_fits_every_width() {
-    for (width, most) in [(None, 36), (Some(100), 36), (Some(60), 48), (Some(40), 72)] {
+    for (width, most) in [(None, 45), (Some(100), 45), (Some(60), 60), (Some(40), 90)] {
         let page = explained(width);
         let found: Vec<&str> = page.text().lines().collect();
         let widest = found.iter().map(|line| seen(line)).max();

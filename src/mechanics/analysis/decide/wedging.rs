@@ -8,7 +8,7 @@ use crate::mechanics::scene::Scene;
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect::report::Wedging;
 use crate::mechanics::wedge::{SelfStress, SelfStressCheck, check_self_stress};
-use crate::text::first_of;
+use crate::text::{first_of, power_of_ten};
 
 /// The largest number of blocks, and of contacts, that a sentence names.
 const MAX_NAMES: usize = 4;
@@ -43,7 +43,7 @@ pub(in crate::mechanics::analysis) fn only_by_wedging<'a>(
                 let newtons = |force: f64| {
                     let unit = scene.units.force();
                     let force = unit.value_from_si(force * component.scale.force);
-                    format!("{force:.3e} {}", unit.symbol())
+                    format!("{} {}", power_of_ten(force, 3), unit.symbol())
                 };
                 let shown = describe(&self_stress, newtons, body, face);
                 let wedged = Wedged::new(assembly, component.scale, &self_stress);

@@ -94,7 +94,7 @@ entry! {
         /// Mass of the block in kg, at least 0. A `mass` takes precedence over every density.
         mass: Option<f64> [range(min = 0.0)],
         /// Density of the block in kg/m³, at least 0. Default: that of its material, else that of the scene.
-        density: Option<f64> [range(min = 0.0)],
+        density: Option<f64> [range(min = 0.0), extend("type" = ["number", "string"])],
         /// Friction coefficient of the body, at least 0. Default: that of its material, else that of the scene.
         friction: Option<f64> [range(min = 0.0)],
         /// When the placement tolerance is computed, the errors of this block are multiplied by this coefficient, at least
@@ -156,7 +156,8 @@ entry! {
 entry! {
     /// A point at which two bodies touch, in a scene that lists its contacts.
     pub struct ContactEntry {
-        /// Names of the two bodies that touch; `ground` is the ground.
+        /// Names of the two bodies that touch: ids of blocks and of parts of the ground. `ground` is the part of the ground
+        /// nearest to the contact.
         bodies: required [String; 2] as |r, node, at| two_names(r, node, at, "bodies"),
         /// Point [x, y], in the length unit of the scene, at which the two bodies touch.
         at: required Pair,

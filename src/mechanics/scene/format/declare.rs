@@ -18,7 +18,7 @@ macro_rules! entry {
             $([$($schema:tt)*])? $(as $how:expr)?
         ),* $(,)?
     }) => {
-        #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+        #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
         #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         $(#[$meta])*
         #[serde(deny_unknown_fields)]
@@ -89,7 +89,7 @@ macro_rules! setter {
 /// Declares an enum whose values are words in the file.
 macro_rules! word {
     ($(#[$meta:meta])* pub enum $name:ident { $($(#[$doc:meta])* $variant:ident = $word:literal),* $(,)? }) => {
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
         #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         $(#[$meta])*
         pub enum $name {

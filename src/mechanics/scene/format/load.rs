@@ -2,7 +2,7 @@
 
 #[cfg(feature = "schema")]
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::declare::{entry, word};
 use super::{Map, Pair, vector};
@@ -65,7 +65,7 @@ word! {
 /// A pressure: one number, the two numbers at the ends between which it varies linearly, or the pressure of a fluid or
 /// of earth, which grows with the depth. In the force unit of the scene per square metre; positive if it presses on the
 /// block.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(untagged)]
 #[non_exhaustive]
@@ -117,8 +117,8 @@ entry! {
         /// Height y of the surface in the length unit of the scene. The depth is measured downward from it.
         surface: required f64,
         /// Unit weight of the water or earth, at least 0, in the force unit of the scene per cubic metre. Water has
-        /// 9810 N/m³.
-        unit_weight: required f64 [range(min = 0.0)],
+        /// 9810 N/m³. Also a text with its own unit, such as `"18 kN/m3"` or `"62.4 lbf/ft3"`.
+        unit_weight: required f64 [range(min = 0.0), extend("type" = ["number", "string"])],
         /// The coefficient of earth pressure, at least 0; 1 for water. Default 1.
         coefficient: Option<f64> [range(min = 0.0), extend("default" = 1.0)],
         /// Angle of friction between the earth and the blocks, −90 to 90 degrees: the pressure acts at this angle from
@@ -186,7 +186,8 @@ entry! {
     pub struct VehicleEntry {
         /// The axles, the first in front.
         axles: required Vec<AxleEntry> [length(min = 1)],
-        /// Names of the blocks that the vehicle travels over. Default: all placed blocks that are seen from above.
+        /// Names of the blocks that the vehicle travels over, where they are seen from above: other blocks hide what is
+        /// below them. Default: all placed blocks.
         over: Vec<String>,
         /// Distance between further positions that are analysed for a smoother influence line, in the length unit of the
         /// scene, at least 0; more than 1 000 in one direction are left out. Every position with an axle at an end of the

@@ -5,15 +5,11 @@
 
 #[cfg(feature = "schema")]
 use std::borrow::Cow;
-use std::collections::BTreeSet;
-use std::fmt;
-use std::marker::PhantomData;
 
 #[cfg(feature = "schema")]
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::de::{Error as _, MapAccess, Visitor};
 use serde::ser::SerializeMap;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Serialize, Serializer};
 
 use crate::read::{Node, Read, Reader, Trail};
 
@@ -41,34 +37,6 @@ impl<T: Serialize> Serialize for Map<T> {
             map.serialize_entry(key, value)?;
         }
         map.end()
-    }
-}
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Map<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(MapVisitor(PhantomData))
-    }
-}
-
-struct MapVisitor<T>(PhantomData<T>);
-
-impl<'de, T: Deserialize<'de>> Visitor<'de> for MapVisitor<T> {
-    type Value = Map<T>;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("an object")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<Map<T>, A::Error> {
-        let mut seen = BTreeSet::new();
-        let mut entries = Vec::new();
-        while let Some((key, value)) = access.next_entry::<String, T>()? {
-            if !seen.insert(key.clone()) {
-                return Err(A::Error::custom(format_args!("duplicate key `{key}`")));
-            }
-            entries.push((key, value));
-        }
-        Ok(Map(entries))
     }
 }
 

@@ -1,16 +1,16 @@
-//! [`Setting`]: a value that replaces one in the text of a scene file before it is read, such as `friction=0.5`.
+//! [`Setting`]: a value that replaces one in the syntax tree of a scene file before it is read, such as `friction=0.5`.
 //!
-//! The text is edited, not the scene, so that a changed scene is checked like any other, and its text can be stored
-//! and read again. The title states the changes.
+//! The tree is edited, not the scene, so that a changed scene is checked like any other, and its file can be stored and
+//! read again. The title states the changes.
 
 use std::fmt;
-use std::ops::Range;
 use std::str::FromStr;
 
+use super::unit::split_unit;
 use crate::mechanics::scene::{Code, Problem, SceneError};
 use crate::read::path::Segment;
-use crate::read::tree::{Entry, List, parse};
-use crate::read::{Node, NodeKind, Path, tree::Tree};
+use crate::read::tree::{Entry, List, MAX_DEPTH, Object, Tree, parse};
+use crate::read::{Node, NodeKind, Path, Source};
 use crate::text::{json, nearest, shortened};
 
 /// The name of a value in a scene file, and the value that replaces it.
@@ -36,14 +36,12 @@ impl FromStr for Setting {
         if name.is_empty() || value.is_empty() {
             return Err(wrong());
         }
-        // A word without quotes is a string: `units.length=mm`. JSON has no number without a digit before the point.
-        let digits =
-            value.strip_prefix('-').unwrap_or(value).strip_prefix('.').filter(|_| value.parse::<f64>().is_ok());
-        let value = match digits {
-            Some(digits) => format!("{}0.{digits}", if value.starts_with('-') { "-" } else { "" }),
-            None if parse(value).is_ok() => value.to_owned(),
-            None => quoted(value),
-        };
+        if name.split(['.', '[']).count() > MAX_DEPTH {
+            return Err(format!("the name of a value has at most {MAX_DEPTH} parts"));
+        }
+        // A word without quotes is a string: `units.length=mm`.
+        let value =
+            if parse(value).is_ok() { value.to_owned() } else { with_zero(value).unwrap_or_else(|| quoted(value)) };
         let setting = Setting { name: name.to_owned(), value };
         if setting.is_factor() && !setting.number().is_some_and(f64::is_finite) {
             return Err(format!("{name} needs a number, such as {name}=2"));
@@ -68,39 +66,37 @@ impl Setting {
         self.value.parse().ok()
     }
 
-    /// Returns the changed text, and the path of the value in it.
-    fn applied(&self, text: &str) -> Result<(String, String), Box<Problem>> {
-        // A text that is not JSON is left as it is; reading it gives the error.
-        let Ok(tree) = parse(text) else { return Ok((text.to_owned(), String::new())) };
-        let root = Place { tree: &tree, text };
-        let (edits, path) = match (self.name.as_str(), self.number()) {
-            ("tilt", Some(degrees)) => (root.tilted(degrees), "gravity".to_owned()),
-            ("load_factor", Some(factor)) => (root.with_loads(factor), "loads".to_owned()),
-            _ => {
-                let mut path = Path::default();
-                (root.edits(&tree.root, &self.name, &self.value, &mut path)?, path.to_string())
+    /// Gives the value its place in the tree. Returns the path at which messages look for it.
+    fn apply<'t>(&'t self, tree: &mut Tree<'t>, text: &str) -> Result<Path, Box<Problem>> {
+        let mut path = Path::default();
+        match (self.name.as_str(), self.number()) {
+            ("tilt", Some(degrees)) => {
+                tilt(tree, text, degrees)?;
+                path.0.push(Segment::Key("gravity".into()));
             }
-        };
-        Ok((edited(text, edits), path))
+            ("load_factor", Some(factor)) => {
+                multiply_loads(tree, factor);
+                path.0.push(Segment::Key("loads".into()));
+            }
+            (name, _) => tree.root = put(tree, text, tree.root.clone(), (name, &self.value), &mut path)?,
+        }
+        Ok(path)
     }
 }
 
-/// Each setting with the path of its value in the scene file.
-pub(in crate::mechanics::scene) type Paths<'s> = Vec<(&'s Setting, String)>;
+/// The path of the value of each setting in the scene file, in the order of the settings.
+pub(in crate::mechanics::scene) type Paths = Vec<String>;
 
-/// Returns the text with all settings applied and stated in the title, and the path of each value.
-pub(in crate::mechanics::scene) fn changed<'s>(
-    text: &str,
-    settings: &'s [Setting],
-) -> Result<(String, Paths<'s>), SceneError> {
-    let mut changed = text.to_owned();
+/// Applies all settings, and states them in the title. Returns their paths.
+pub(in crate::mechanics::scene) fn apply<'t>(
+    settings: &'t [Setting],
+    source: &mut Source<'t>,
+) -> Result<Paths, SceneError> {
     let (mut paths, mut wrong) = (Vec::new(), Vec::new());
+    let Some(tree) = source.tree.as_mut() else { return Ok(paths) };
     for setting in settings {
-        match setting.applied(&changed) {
-            Ok((text, path)) => {
-                changed = text;
-                paths.push((setting, path));
-            }
+        match setting.apply(tree, source.text) {
+            Ok(path) => paths.push(path.to_string()),
             Err(problem) => wrong.push(*problem),
         }
     }
@@ -109,14 +105,25 @@ pub(in crate::mechanics::scene) fn changed<'s>(
     }
     let stated = settings.iter().filter(|setting| setting.name != "title");
     let stated: Vec<String> = stated.map(|setting| format!("{} = {}", setting.name, setting.value)).collect();
-    let Some(tree) = parse(&changed).ok().filter(|_| !stated.is_empty()) else { return Ok((changed, paths)) };
-    let root = Place { tree: &tree, text: &changed };
-    let title = match root.entry(&tree.root, "title").map(|entry| &entry.value.kind) {
-        Some(NodeKind::Text(title)) if !title.is_empty() => format!("{title}, with {}", stated.join(", ")),
-        _ => format!("with {}", stated.join(", ")),
+    let words = format!("with {}", stated.join(", "));
+    if stated.is_empty() {
+        return Ok(paths);
+    }
+    let title = match entry(tree, &tree.root, "title").map(|entry| &entry.value.kind) {
+        Some(NodeKind::Text(title)) if !title.is_empty() => format!("{title}, {words}"),
+        _ => words,
     };
-    let edits = root.edits(&tree.root, "title", &quoted(&title), &mut Path::default());
-    Ok((edits.map_or(changed.clone(), |edits| edited(&changed, edits)), paths))
+    // If the file is not an object, reading it gives the error.
+    if let Ok(root) = put(tree, source.text, tree.root.clone(), ("title", "\"\""), &mut Path::default())
+        && let NodeKind::Object(Object(keys)) = &root.kind
+    {
+        let mut keys = tree.entries[keys.clone()].iter_mut();
+        if let Some(entry) = keys.find(|entry| entry.name == "title") {
+            entry.value.kind = NodeKind::Text(title.into());
+        }
+        tree.root = root;
+    }
+    Ok(paths)
 }
 
 /// True if a path is the path `outer`, or that of something inside the value there.
@@ -125,153 +132,150 @@ pub(in crate::mechanics::scene) fn is_within(path: &str, outer: &str) -> bool {
     !outer.is_empty() && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
-/// Ranges of bytes of a text, and what replaces them.
-type Edits = Vec<(Range<usize>, String)>;
+/// The keys from which the weight of a block follows.
+const WEIGHTS: [&str; 3] = ["weight", "mass", "density"];
 
-fn edited(text: &str, mut edits: Edits) -> String {
-    edits.sort_by_key(|(range, _)| range.start);
-    let mut text = text.to_owned();
-    for (range, new) in edits.into_iter().rev() {
-        text.replace_range(range, &new);
+/// Gives a value, as JSON, to a name as seen from `node`. Extends `path`, the path of `node`, to that of the value. Keys
+/// that are missing on the way are added; the path then ends at the first of them. Returns the changed node.
+fn put<'t>(
+    tree: &mut Tree<'t>,
+    text: &str,
+    mut node: Node<'t>,
+    (name, value): (&str, &'t str),
+    path: &mut Path,
+) -> Result<Node<'t>, Box<Problem>> {
+    let home = node.range.start;
+    if name.is_empty() {
+        return Ok(tree.add(value, home).unwrap_or(node));
     }
-    text
-}
-
-/// A text with its values.
-struct Place<'t> {
-    tree: &'t Tree<'t>,
-    text: &'t str,
-}
-
-impl<'t> Place<'t> {
-    fn entry(&self, node: &'t Node<'t>, key: &str) -> Option<&'t Entry<'t>> {
-        let NodeKind::Object(object) = &node.kind else { return None };
-        self.tree.entries(object).iter().find(|entry| entry.name == key)
-    }
-
-    fn list(&self, key: &str) -> &'t [Node<'t>] {
-        match self.entry(&self.tree.root, key).map(|entry| &entry.value.kind) {
-            Some(NodeKind::List(list)) => self.tree.items(list),
-            _ => &[],
+    match node.kind.clone() {
+        NodeKind::List(list) => {
+            let (number, rest) = item(tree, &list, name, path)?;
+            path.0.push(Segment::Index(number));
+            let at = list.0.start + number;
+            tree.items[at] = put(tree, text, tree.items[at].clone(), (rest, value), path)?;
         }
-    }
-
-    fn number(&self, node: &Node<'t>) -> Option<f64> {
-        if let NodeKind::Number(number) = node.kind { Some(number) } else { None }
-    }
-
-    fn numbers(&self, node: &Node<'t>) -> Option<Vec<f64>> {
-        let NodeKind::List(list) = &node.kind else { return None };
-        self.tree.items(list).iter().map(|item| self.number(item)).collect()
-    }
-
-    /// Gives `name`, as seen from `node`, the value `value`. Extends `path`, the path of `node`, to that of the value.
-    fn edits(&self, node: &'t Node<'t>, name: &str, value: &str, path: &mut Path) -> Result<Edits, Box<Problem>> {
-        match &node.kind {
-            NodeKind::List(list) => {
-                let items = self.tree.items(list);
-                let (number, rest) = self.item(list, name, path)?;
-                path.0.push(Segment::Index(number));
-                match rest {
-                    "" => Ok(vec![(items[number].range.clone(), value.to_owned())]),
-                    rest => self.edits(&items[number], rest, value, path),
+        NodeKind::Object(Object(mut keys)) => {
+            let entries = keys.clone().filter_map(|at| Some((at, after(name, &tree.entries[at].name)?)));
+            let found = entries.min_by_key(|(_, rest)| rest.len());
+            let (at, rest) = found.unwrap_or_else(|| {
+                let (key, rest) = name.split_once('.').unwrap_or((name, ""));
+                let at = tree.entries.len();
+                let value = Node { range: home..home, kind: NodeKind::Object(Object(0..0)) };
+                tree.entries.push(Entry { name: key.to_owned().into(), name_range: home..home, value });
+                tree.entries.extend_from_within(keys.clone());
+                keys = at..tree.entries.len();
+                (at, rest.trim_matches('.'))
+            });
+            let key = tree.entries[at].name.to_string();
+            let is_weight = path.0.first() == Some(&Segment::Key("blocks".into())) && WEIGHTS.contains(&&*key);
+            for rival in tree.entries[keys.clone()].iter_mut().filter(|_| is_weight && rest.is_empty()) {
+                if WEIGHTS.contains(&&*rival.name) && rival.name != key {
+                    rival.value.kind = NodeKind::Null;
                 }
             }
-            NodeKind::Object(object) => {
-                let entries = self.tree.entries(object);
-                let fitting = entries.iter().filter_map(|entry| Some((entry, after(name, &entry.name)?)));
-                let Some((entry, rest)) = fitting.max_by_key(|(entry, _)| entry.name.len()) else {
-                    let (key, rest) = name.split_once('.').unwrap_or((name, ""));
-                    path.0.push(Segment::Key(key.to_owned()));
-                    let inner = rest.split('.').filter(|key| !key.is_empty()).rev();
-                    let value = inner.fold(value.to_owned(), |value, key| format!("{{{}: {value}}}", quoted(key)));
-                    let comma = if entries.is_empty() { "" } else { "," };
-                    let start = node.range.start + 1;
-                    let mut edits = vec![(start..start, format!(" {}: {value}{comma}", quoted(key)))];
-                    edits.extend(self.without_rivals(entries, key, path));
-                    return Ok(edits);
-                };
-                path.0.push(Segment::Key(entry.name.to_string()));
-                if !rest.is_empty() {
-                    return self.edits(&entry.value, rest, value, path);
-                }
-                let mut edits = vec![(entry.value.range.clone(), value.to_owned())];
-                edits.extend(self.without_rivals(entries, &entry.name, path));
-                Ok(edits)
-            }
-            _ => {
-                let shown = shortened(&self.text[node.range.clone()]);
-                Err(unknown(path, format!("{shown} has no key {name:?}"), "name a key of the scene file".into()))
-            }
+            path.0.push(Segment::Key(key));
+            let (inner, mut added) = (tree.entries[at].value.clone(), Path::default());
+            let path = if found.is_some() { path } else { &mut added };
+            tree.entries[at].value = put(tree, text, inner, (rest, value), path)?;
+            node.kind = NodeKind::Object(Object(keys));
+        }
+        _ => {
+            // The value of an earlier setting has no text in the file.
+            let written = text.get(node.range).filter(|written| !written.is_empty());
+            let shown = shortened(written.unwrap_or("the value set before"));
+            return Err(unknown(path, format!("{shown} has no key {name:?}"), "name a key of the scene file".into()));
         }
     }
+    Ok(node)
+}
 
-    /// Removes the other keys from which the weight of a block would follow.
-    fn without_rivals(&self, entries: &[Entry<'t>], key: &str, path: &Path) -> Edits {
-        const WEIGHTS: [&str; 3] = ["weight", "mass", "density"];
-        let is_weight = path.0.first() == Some(&Segment::Key("blocks".into())) && WEIGHTS.contains(&key);
-        let rivals = entries.iter().filter(|entry| is_weight && entry.name != key);
-        let rivals = rivals.filter(|entry| WEIGHTS.contains(&&*entry.name));
-        rivals.map(|entry| (entry.value.range.clone(), "null".to_owned())).collect()
+/// Returns the entry of an object with this key.
+fn entry<'n, 't>(tree: &'n Tree<'t>, node: &Node<'_>, key: &str) -> Option<&'n Entry<'t>> {
+    let NodeKind::Object(object) = &node.kind else { return None };
+    tree.entries(object).iter().find(|entry| entry.name == key)
+}
+
+/// Finds the entry of a list with which `name` begins. Returns its index, and the rest of the name.
+fn item<'n>(tree: &Tree<'_>, list: &List, name: &'n str, path: &Path) -> Result<(usize, &'n str), Box<Problem>> {
+    if let Some((index, rest)) = name.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
+        let number = index.parse().ok().filter(|number| *number < list.len());
+        let help = format!("the list has {} entries, counted from 0", list.len());
+        let number = number.ok_or_else(|| unknown(path, format!("there is no entry [{index}]"), help))?;
+        return Ok((number, rest.strip_prefix('.').unwrap_or(rest)));
     }
+    let text = |item: &Node<'_>, key: &str| match &entry(tree, item, key)?.value.kind {
+        NodeKind::Text(name) => Some(name.to_string()),
+        _ => None,
+    };
+    let id = |(number, item): (usize, &Node<'_>)| {
+        text(item, "id").or_else(|| text(item, "block")).unwrap_or_else(|| (number + 1).to_string())
+    };
+    let ids: Vec<String> = tree.items(list).iter().enumerate().map(id).collect();
+    let fitting = ids.iter().enumerate().filter_map(|(number, id)| Some((number, id.len(), after(name, id)?)));
+    fitting.max_by_key(|(_, length, _)| *length).map(|(number, _, rest)| (number, rest)).ok_or_else(|| {
+        let wanted = name.rsplit_once('.').map_or(name, |(id, _)| id);
+        let help = match nearest(wanted, ids.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean {near:?}?"),
+            None => "give an id, or a number from 0 in square brackets, such as [0]".into(),
+        };
+        unknown(path, format!("the scene has no entry {wanted:?} here"), help)
+    })
+}
 
-    /// Finds the entry of a list with which `name` begins. Returns its index, and the rest of the name.
-    fn item<'n>(&self, list: &'t List, name: &'n str, path: &Path) -> Result<(usize, &'n str), Box<Problem>> {
-        let items = self.tree.items(list);
-        if let Some((index, rest)) = name.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
-            let number = index.parse().ok().filter(|number| *number < items.len());
-            let help = format!("the list has {} entries, counted from 0", items.len());
-            let number = number.ok_or_else(|| unknown(path, format!("there is no entry [{index}]"), help))?;
-            return Ok((number, rest.strip_prefix('.').unwrap_or(rest)));
-        }
-        let text = |item: &'t Node<'t>, key: &str| match self.entry(item, key).map(|entry| &entry.value.kind) {
-            Some(NodeKind::Text(name)) => Some(name.to_string()),
-            _ => None,
+/// Turns gravity by an angle in degrees, positive anticlockwise.
+fn tilt(tree: &mut Tree<'_>, text: &str, degrees: f64) -> Result<(), Box<Problem>> {
+    let pair = |tree: &Tree<'_>| {
+        let NodeKind::List(list) = &entry(tree, &tree.root, "gravity")?.value.kind else { return None };
+        let [Node { kind: NodeKind::Number(x), .. }, Node { kind: NodeKind::Number(y), .. }] = tree.items(list) else {
+            return None;
         };
-        let id = |(number, item): (usize, &'t Node<'t>)| {
-            text(item, "id").or_else(|| text(item, "block")).unwrap_or_else(|| (number + 1).to_string())
-        };
-        let ids: Vec<String> = items.iter().enumerate().map(id).collect();
-        let fitting = ids.iter().enumerate().filter_map(|(number, id)| Some((number, id.len(), after(name, id)?)));
-        fitting.max_by_key(|(_, length, _)| *length).map(|(number, _, rest)| (number, rest)).ok_or_else(|| {
-            let wanted = name.rsplit_once('.').map_or(name, |(id, _)| id);
-            let help = match nearest(wanted, ids.iter().map(String::as_str)) {
-                Some(near) => format!("did you mean {near:?}?"),
-                None => "give an id, or a number from 0 in square brackets, such as [0]".into(),
-            };
-            unknown(path, format!("the scene has no entry {wanted:?} here"), help)
-        })
+        Some((list.0.start, *x, *y))
+    };
+    if pair(tree).is_none() {
+        tree.root = put(tree, text, tree.root.clone(), ("gravity", "[0, -9.81]"), &mut Path::default())?;
     }
-
-    /// Turns gravity by an angle in degrees, positive anticlockwise.
-    fn tilted(&self, degrees: f64) -> Edits {
-        let given = self.entry(&self.tree.root, "gravity").and_then(|entry| self.numbers(&entry.value));
-        let [x, y] = given.and_then(|numbers| numbers.try_into().ok()).unwrap_or([0.0, -9.81]);
+    if let Some((at, x, y)) = pair(tree) {
         let (sin, cos) = (libm::sin(degrees.to_radians()), libm::cos(degrees.to_radians()));
-        let turned = format!("[{}, {}]", x * cos - y * sin, x * sin + y * cos);
-        self.edits(&self.tree.root, "gravity", &turned, &mut Path::default()).unwrap_or_default()
+        tree.items[at].kind = NodeKind::Number(x * cos - y * sin);
+        tree.items[at + 1].kind = NodeKind::Number(x * sin + y * cos);
     }
+    Ok(())
+}
 
-    /// Multiplies the forces, torques and pressures of all loads that are not fixed.
-    fn with_loads(&self, factor: f64) -> Edits {
-        let mut edits = Edits::new();
-        for load in self.list("loads") {
-            let of = |node, key| self.entry(node, key).map(|entry| &entry.value);
-            if of(load, "fixed").is_some_and(|fixed| matches!(fixed.kind, NodeKind::Flag(true))) {
+/// Multiplies the forces, torques and pressures of all loads that are not fixed.
+fn multiply_loads(tree: &mut Tree<'_>, factor: f64) {
+    let Some(NodeKind::List(loads)) = entry(tree, &tree.root, "loads").map(|entry| entry.value.kind.clone()) else {
+        return;
+    };
+    let times = |node: &mut Node<'_>| {
+        match &mut node.kind {
+            NodeKind::Number(amount) => *amount *= factor,
+            // A unit weight may have a unit.
+            NodeKind::Text(text) => {
+                if let Some((amount, unit)) = split_unit(text) {
+                    *text = format!("{} {unit}", amount * factor).into();
+                }
+            }
+            _ => {}
+        }
+    };
+    for load in tree.items(&loads).to_vec() {
+        let is_fixed = entry(tree, &load, "fixed").is_some_and(|fixed| fixed.value.kind == NodeKind::Flag(true));
+        let NodeKind::Object(Object(keys)) = load.kind else { continue };
+        for at in keys.filter(|_| !is_fixed) {
+            if !["force", "torque", "pressure"].contains(&&*tree.entries[at].name) {
                 continue;
             }
-            let pressure = of(load, "pressure");
-            let weight = pressure.and_then(|pressure| of(pressure, "unit_weight"));
-            for amount in [of(load, "force"), of(load, "torque"), pressure, weight].into_iter().flatten() {
-                if let Some(parts) = self.numbers(amount) {
-                    let parts: Vec<String> = parts.iter().map(|part| (part * factor).to_string()).collect();
-                    edits.push((amount.range.clone(), format!("[{}]", parts.join(", "))));
-                } else if let Some(number) = self.number(amount) {
-                    edits.push((amount.range.clone(), (number * factor).to_string()));
+            match tree.entries[at].value.kind.clone() {
+                NodeKind::List(List(parts)) => tree.items[parts].iter_mut().for_each(times),
+                NodeKind::Object(Object(parts)) => {
+                    let parts = tree.entries[parts].iter_mut().filter(|part| part.name == "unit_weight");
+                    parts.for_each(|part| times(&mut part.value));
                 }
+                _ => times(&mut tree.entries[at].value),
             }
         }
-        edits
     }
 }
 
@@ -279,6 +283,13 @@ impl<'t> Place<'t> {
 fn after<'n>(name: &'n str, begin: &str) -> Option<&'n str> {
     let rest = name.strip_prefix(begin)?;
     if rest.is_empty() || rest.starts_with('[') { Some(rest) } else { rest.strip_prefix('.') }
+}
+
+/// Returns a number that begins with a point, such as `-.5`, with a zero before the point; `None` for other text.
+fn with_zero(value: &str) -> Option<String> {
+    let (sign, digits) = value.strip_prefix('-').map_or(("", value), |digits| ("-", digits));
+    let number = format!("{sign}0{digits}");
+    (digits.starts_with('.') && parse(&number).is_ok()).then_some(number)
 }
 
 fn quoted(text: &str) -> String {

@@ -23,8 +23,22 @@ impl Resolution<'_> {
     }
 
     /// Returns the contacts listed in the file whose bodies, point and normal are valid. Reports all problems. A
-    /// contact with an invalid friction coefficient is reported and gets the friction coefficient of the scene.
-    pub(super) fn contacts(&self, findings: &mut Findings, blocks: &Names<'_>) -> Vec<ListedContact> {
+    /// contact with an invalid friction coefficient is reported and gets the friction coefficient of the scene. The name
+    /// `ground` stands for the part of the ground that is nearest to the contact.
+    pub(super) fn contacts(
+        &self,
+        findings: &mut Findings,
+        blocks: &Names<'_>,
+        ground: &[Option<Ground>],
+    ) -> Vec<ListedContact> {
+        let nearest = |at: [f64; 2]| {
+            let at = Point::new(at[0], at[1]);
+            let distances =
+                ground.iter().map(|part| part.as_ref().map_or(f64::INFINITY, |g| g.body.polygon.distance(at)));
+            distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |found| found.0)
+        };
+        let part =
+            |name: &str| ground.iter().position(|part| part.as_ref().is_some_and(|g| g.id.as_deref() == Some(name)));
         let top = Trail::Top;
         let list = top.key("contacts");
         let mut contacts = Vec::new();
@@ -35,11 +49,11 @@ impl Resolution<'_> {
             let friction = at_least_zero(findings, &at, "friction", entry.friction);
             let names = at.key("bodies");
             let mut bodies = [0, 1].map(|side| match entry.bodies[side].as_str() {
-                "ground" => Some(BodyId::Ground(0)),
-                name => {
-                    let number = blocks.find(findings, &names.index(side), name);
-                    number.map(|number| BodyId::Block(BlockId(number)))
-                }
+                "ground" => Some(BodyId::Ground(nearest(entry.at))),
+                name => match (blocks.get(name), part(name)) {
+                    (None, Some(part)) => Some(BodyId::Ground(part)),
+                    _ => blocks.find(findings, &names.index(side), name).map(|number| BodyId::Block(BlockId(number))),
+                },
             });
             if let [Some(a), Some(b)] = bodies
                 && a == b

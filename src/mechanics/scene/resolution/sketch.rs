@@ -2,11 +2,13 @@
 
 use super::Resolution;
 use super::body::BodyEntry;
-use crate::geometry::{Cell, CellShape, Point, Vector, sin_cos_degrees};
-use crate::mechanics::scene::finding::{Findings, UnreadParts};
-use crate::mechanics::scene::format::{CellEntry, CellHalf, SceneFile};
+use crate::geometry::{Cell, Lattice, Point};
+use crate::mechanics::scene::finding::{Finding, Findings, UnreadParts};
+use crate::mechanics::scene::format::{CellEntry, Pair, SceneFile};
 use crate::mechanics::scene::number::MAX_MAGNITUDE;
+use crate::mechanics::scene::outline::{cell_parts, node, placed_point};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
+use crate::read::Trail;
 
 /// A body of the scene file, at its position in the scene. Healing does not change it.
 #[derive(Clone, Debug)]
@@ -24,24 +26,30 @@ pub struct SketchedBody {
 /// The position of a body: it is rotated about its origin and then moved.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::mechanics::scene) struct Placement {
-    by: Vector,
-    sin: f64,
-    cos: f64,
+    lattice: Option<Lattice>,
+    at: Pair,
+    angle: f64,
 }
 
 impl Placement {
     pub(in crate::mechanics::scene) fn place(&self, p: Point) -> Point {
-        let turned = Vector::new(p.x * self.cos - p.y * self.sin, p.x * self.sin + p.y * self.cos);
-        Point::from(turned + self.by)
+        placed_point(self.lattice, p.into(), self.at, self.angle)
     }
 }
 
 /// Returns all bodies that can be drawn, the ground first, and the scene if all its bodies are valid. The bodies may
-/// still overlap. The scene is not converted to SI units: its lengths are in the units of the file.
-pub(in crate::mechanics::scene) fn sketch(file: &SceneFile, unread: UnreadParts) -> (Vec<SketchedBody>, Option<Scene>) {
+/// still overlap. The scene is not converted to SI units: its lengths are in the units of the file. Adds all problems to
+/// `found`.
+pub(in crate::mechanics::scene) fn sketch(
+    file: &SceneFile,
+    unread: UnreadParts,
+    found: &mut Vec<Finding>,
+) -> (Vec<SketchedBody>, Option<Scene>) {
     let mut findings = Findings::with_unread(unread);
+    findings.units = file.units.unwrap_or_default();
     let resolution = Resolution::new(&mut findings, file);
     let scene = resolution.scene(&mut findings);
+    found.append(&mut findings.list);
     (resolution.sketch(&mut findings), scene)
 }
 
@@ -70,14 +78,10 @@ impl Resolution<'_> {
         sound: Option<Vec<Vec<Point>>>,
         written: &BodyEntry<'_>,
     ) -> SketchedBody {
-        let at = written.at.unwrap_or([0.0, 0.0]);
-        let by = match self.lattice {
-            Some(lattice) => lattice.point(at[0], at[1]).coords,
-            None => Vector::new(at[0], at[1]),
-        };
-        let (sin, cos) = sin_cos_degrees(written.angle.unwrap_or(0.0));
-        let placement = Placement { by, sin, cos };
-        SketchedBody { id, name, rings: sound.unwrap_or_else(|| self.raw(written, placement)), placement }
+        let (at, angle) = (written.at.unwrap_or([0.0, 0.0]), written.angle.unwrap_or(0.0));
+        let placement = Placement { lattice: self.lattice, at, angle };
+        let rings = sound.unwrap_or_else(|| self.raw(written, placement));
+        SketchedBody { id, name, rings, placement }
     }
 
     /// Returns the outline and holes of a body as written, rotated and moved to the body's position. Rings without
@@ -110,16 +114,9 @@ impl Resolution<'_> {
     /// coordinates are not allowed.
     fn cell(&self, cell: CellEntry) -> Option<Vec<Point>> {
         let lattice = self.lattice?;
-        let (x, y, half) = match cell {
-            CellEntry::Triangle(x, y, CellHalf::Up) => (x, y, CellShape::Up),
-            CellEntry::Triangle(x, y, CellHalf::Down) => (x, y, CellShape::Down),
-            CellEntry::Square(x, y) => (x, y, CellShape::Square),
-        };
-        if [x, y].iter().any(|c| c.fract() != 0.0 || c.abs() > 1e6) {
-            return None;
-        }
-        let (x, y) = (x as i64, y as i64);
-        let corners = Cell { x, y, shape: half }.corners();
+        let (at, shape) = cell_parts(cell);
+        let (x, y) = node(&mut Findings::default(), &Trail::Top, at)?;
+        let corners = Cell { x, y, shape }.corners();
         let point = |(x, y): (i64, i64)| lattice.point(x as f64, y as f64);
         Some(corners.into_iter().map(point).collect())
     }

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::mechanics::scene::format::{BlockEntry, CellEntry, CellHalf, GridKind, GroundEntry, Pair};
+use crate::text::power_of_ten;
 
 mod corner;
 mod edge;
@@ -155,8 +156,9 @@ fn edges_touch_within_the_tolerance_and_are_near_misses_beyond_it() {
     assert!((miss.distance - 29.0 * gap).abs() < 1e-12);
     assert!((miss.at.x - 0.125 * ODD).abs() < 1e-9 && (miss.at.y - 29.0 * gap).abs() < 1e-12);
     let words = format!(
-        "0 and ground nearly touch, {:.1e} m apart, more than the {gap:.1e} m that count as contact",
-        29.0 * gap
+        "0 and ground nearly touch, {} m apart, more than the {} m that count as contact",
+        power_of_ten(29.0 * gap, 1),
+        power_of_ten(gap, 1)
     );
     assert_eq!(apart.notices.len(), 1);
     assert_eq!(apart.notices[0], words);
@@ -182,7 +184,8 @@ fn a_contact_too_short_to_count_is_reported_with_its_length() {
     let limit = scene.tolerance_between(FIRST, SECOND).min_length;
     let found = Interfaces::new(&scene);
     let short = format!(
-        "1 contact(s) up to 1.0e-7 m long are shorter than {limit:.1e} m and count as touching corners, which carry no force"
+        "1 contact(s) up to 1×10⁻⁷ m long are shorter than {} m and count as touching corners, which carry no force",
+        power_of_ten(limit, 1)
     );
     assert_eq!(found.notices, [short]);
     let edges = |list: &[Interface]| {

@@ -4,7 +4,7 @@ use super::Grid;
 use super::unit::Units;
 use crate::geometry::{Vector, range_of};
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::mechanics::scene::{BlockId, CornerContacts, Limits, Load, Scene};
+use crate::mechanics::scene::{Axle, BlockId, Case, CornerContacts, Limits, Load, Scene};
 use crate::products::wording::number::{amount, counted, digits, place, quantity, tenths};
 use crate::text::{first_of, line};
 
@@ -48,10 +48,7 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
     for (material, blocks) in &groups {
         let name = match material {
             Some(material) => line(&scene.materials[*material].name),
-            None => known_stone(scene, blocks)
-                .map_or(if groups.len() == 1 { "all blocks" } else { "other blocks" }.to_owned(), |stone| {
-                    format!("as {stone}")
-                }),
+            None => if groups.len() == 1 { "all blocks" } else { "other blocks" }.to_owned(),
         };
         let densities = blocks.iter().filter_map(|id| density(scene, *id));
         let frictions = blocks.iter().map(|id| scene.blocks[id.0].body.friction);
@@ -62,22 +59,6 @@ pub(super) fn materials(scene: &Scene, number: usize, units: Units) -> Grid {
         grid.add("", cells);
     }
     grid
-}
-
-/// Returns the stone that the option `--material` of an import knows with the density and the friction of these blocks.
-#[cfg(feature = "import")]
-fn known_stone(scene: &Scene, blocks: &[BlockId]) -> Option<&'static str> {
-    let stones = crate::sources::import::STONES.iter();
-    let has = |id: &BlockId, size: f64, friction: f64| {
-        density(scene, *id) == Some(size) && scene.blocks[id.0].body.friction == friction
-    };
-    let mut fitting = stones.filter(|stone| blocks.iter().all(|id| has(id, stone.density, stone.friction)));
-    fitting.next().map(|stone| stone.name)
-}
-
-#[cfg(not(feature = "import"))]
-fn known_stone(_scene: &Scene, _blocks: &[BlockId]) -> Option<&'static str> {
-    None
 }
 
 /// Returns the density of a block in kg/m³, computed from its weight and outline. Returns `None` if the file gives its
@@ -93,9 +74,23 @@ fn density(scene: &Scene, block: BlockId) -> Option<f64> {
     density.is_finite().then(|| format!("{density:.6e}").parse().unwrap_or(density))
 }
 
-/// Makes a table with a row for each load of a frame. Loads after the first [`MAX_ROWS`] share one row with their
-/// sum.
-pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
+/// Writes what a load case consists of: `1.35 × earth, 0.9 × weights`.
+pub(super) fn factors(given: &Scene, case: &Case) -> String {
+    let ids = &given.load_ids;
+    let name =
+        |number: usize| ids.get(number).and_then(|id| id.as_deref()).map_or(format!("load {}", number + 1), line);
+    let loads = case.loads.iter().enumerate().filter(|(_, factor)| **factor != 0.0);
+    let loads = loads.map(|(number, factor)| (name(number), *factor)).chain([("weights".to_owned(), case.weights)]);
+    let part = |(name, factor): (String, f64)| {
+        if factor == 1.0 { name } else { format!("{} × {name}", digits(factor)) }
+    };
+    first_of(loads.map(part).collect::<Vec<_>>(), MAX_ROWS)
+}
+
+/// Makes a table with a row for each load of a frame, also for the axles of a vehicle at the position that governs: loads
+/// that the scene as it is `given` does not have. Loads after the first [`MAX_ROWS`] share one row with their sum.
+pub(super) fn loads(given: &Scene, scene: &Scene, number: usize, units: Units) -> Grid {
+    let axles_from = given.loads.iter().map(|load| load.entry + 1).max().unwrap_or(0);
     let placed = &scene.frames[number].placed;
     let loads = scene.loads_on(placed);
     let newtons = units.newtons(loads.iter().map(|l| l.force.norm()));
@@ -116,6 +111,9 @@ pub(super) fn loads(scene: &Scene, number: usize, units: Units) -> Grid {
             Some(_) => format!("pressure on {}", first_of(blocks.into_iter().map(name), MAX_NAMED)),
             None => name(load.block),
         };
+        if load.entry >= axles_from {
+            return format!("axle {} on {target}", load.entry - axles_from + 1);
+        }
         // The figures write this id at the load.
         scene.load_id(load).map_or(target.clone(), |id| format!("{}: {target}", line(id)))
     };
@@ -213,6 +211,14 @@ pub(super) fn facts(scene: &Scene, number: usize) -> Grid {
         add("loads", "none but the weights".to_owned());
     }
     add("thickness, into the page", amount(scene.thickness, scene.units.length()));
+    if let Some(vehicle) = &scene.vehicle {
+        let [newtons, metres] = [scene.units.force(), scene.units.length()];
+        let axle = |axle: &Axle| match axle.offset {
+            0.0 => quantity(axle.weight, newtons),
+            offset => format!("{} {} behind", quantity(axle.weight, newtons), amount(offset, metres)),
+        };
+        add("axles of the vehicle", first_of(vehicle.axles.iter().map(axle), MAX_ROWS));
+    }
     let friction = range(scene.ground.iter().map(|g| g.body.friction));
     let ground = match scene.ground.len() {
         0 => "none".to_owned(),

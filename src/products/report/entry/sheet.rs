@@ -89,11 +89,11 @@ pub(super) fn sheet(
         subject: Some((Kind::Structure, number)),
     });
     first.parts.push(SheetPart::Figures(outline.into_iter().collect()));
-    first.parts.extend(given(scene, number, Units::new(scene, found)));
+    first.parts.extend(given(analysis.given(), scene, found, number));
     let reactions = balance::support_forces(analysis, number);
     first.parts.extend(titled("Reactions", reactions, other_balances(analysis, number)));
     first.parts.extend(titled("Margins", margins(scene, found), Some(bullet::SHAPES_LEGEND.to_owned())));
-    first.parts.extend(titled("Load cases", cases(scene, found), None));
+    first.parts.extend(titled("Load cases", cases(analysis.given(), scene, found), None));
     let notes = found.margins.iter().flat_map(|margins| &margins.notes);
     first.parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
 
@@ -261,13 +261,17 @@ fn titled(heading: &str, grid: Grid, note: Option<String>) -> Vec<SheetPart> {
     parts
 }
 
-/// Makes two columns with the inputs of the frame with index `number`, and below them a long table of loads.
-fn given(scene: &Scene, number: usize, units: Units) -> Vec<SheetPart> {
-    let mut left = titled("Materials", inputs::materials(scene, number, units), None);
-    let loads = inputs::loads(scene, number, units);
+/// Makes two columns with the inputs of the frame with index `number`, and below them a long table of loads. The weights
+/// are those of the scene as it is `given`. The loads are those of the condition that governs, in which `scene` has them.
+fn given(given: &Scene, scene: &Scene, found: &FrameAnalysis, number: usize) -> Vec<SheetPart> {
+    let units = Units::new(scene, found);
+    let mut left = titled("Materials", inputs::materials(given, number, units), None);
+    let loads = inputs::loads(given, scene, number, units);
     // In a narrow column, a row of loads has three lines.
     let is_long = loads.lines.len() > MAX_NARROW_LOADS;
-    let loads = titled("Loads", loads, None);
+    let governing = found.cases.as_ref().and_then(|cases| given.cases().get(cases.governing));
+    let note = governing.map(|case| format!("Load case {}: {}.", line(&case.id), inputs::factors(given, case)));
+    let loads = titled("Loads", loads, note);
     let below = if is_long {
         loads
     } else {
@@ -275,7 +279,7 @@ fn given(scene: &Scene, number: usize, units: Units) -> Vec<SheetPart> {
         Vec::new()
     };
     left.extend(titled("Robots", inputs::robots(scene, number), None));
-    let columns = SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(scene, number), None)]);
+    let columns = SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(given, number), None)]);
     std::iter::once(columns).chain(below).collect()
 }
 
@@ -293,8 +297,8 @@ fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
 
 /// Makes the table of the load cases. Each row has the headline margin of its case as a bar, and the worst case is
 /// emphasised. If all rows show the same margin, their bars have one scale.
-fn cases(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
-    let mut grid = Grid::new("", &["load case", "verdict", "margin", "#from", "bar", "to"]);
+fn cases(given: &Scene, scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new("", &["load case", "consists of", "verdict", "margin", "#from", "bar", "to"]);
     let Some(cases) = &frame_analysis.cases else { return grid };
     let of = |case: &CaseResult| {
         let (margins, verdict) = (case.margins.clone(), case.verdict);
@@ -318,7 +322,8 @@ fn cases(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
             }
             None => ["–", "", "", ""].map(TableCell::from),
         };
-        grid.add("", [name, verdict, margin, from, shown, to]);
+        let parts = given.cases().get(number).map_or(String::new(), |case| inputs::factors(given, case));
+        grid.add("", [name, TableCell::from(parts), verdict, margin, from, shown, to]);
     }
     grid
 }

@@ -83,7 +83,8 @@ fn round_numbers_are_never_above_the_value() {
 #[test]
 fn ends_of_margins_are_rounded_to_the_safe_side_and_keep_their_exponents() {
     assert_eq!([three_down(2.4999), three_up(2.4921), three_down(2.5)], ["2.49", "2.5", "2.5"]);
-    assert_eq!([three_down(1e10), three_up(2e20)], ["1.000e10", "2.000e20"]);
+    assert_eq!([three_down(1_032_587.2), three_up(1_032_587.2)], ["1.032×10⁶", "1.033×10⁶"]);
+    assert_eq!([three_down(1e10), three_up(2e20)], ["1×10¹⁰", "2×10²⁰"]);
 }
 
 #[test]
@@ -99,8 +100,8 @@ fn numbers_are_short_and_keep_four_digits() {
         (0.001_234_56, "0.001235"),
         (9.999_99, "10"),
         (123_456.0, "123456"),
-        (1e9, "1.000e9"),
-        (1e-6, "1.000e-6"),
+        (1e9, "1×10⁹"),
+        (1e-6, "1×10⁻⁶"),
         (f64::INFINITY, "inf"),
     ];
     for (x, text) in cases {

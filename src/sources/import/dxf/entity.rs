@@ -7,8 +7,7 @@ use super::spline::spline;
 use crate::geometry::{Point, Vector};
 use crate::sources::import::subpath::{Arc, Segment, Subpath};
 
-/// A segment with a smaller bulge is a straight line. The bulge is the sagitta divided by half the chord.
-const MIN_BULGE: f64 = 1e-9;
+const NOT_PLANE: &str = "it does not lie in the plane of the drawing";
 
 /// The shape of an entity.
 #[derive(Debug)]
@@ -40,24 +39,24 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
             let corners: Vec<Corner> = on_curve.map(corner).collect();
             polyline(&corners, entity.has_flag(70, 1))
         }
-        "SOLID" | "TRACE" => {
-            // A DXF file stores the fourth corner before the third.
-            let order = [10, 11, 13, 12].map(|code| point(entity, code));
-            let four = entity.number(13).is_some();
-            let corners = if four { &order[..] } else { &order[..2] };
-            let mut corners = corners.to_vec();
-            if !four {
-                corners.push(point(entity, 12));
-            }
+        "SOLID" | "TRACE" | "3DFACE" => {
+            // The fourth corner of a SOLID is stored before the third. A triangle repeats a corner, or has only three.
+            let order = if entity.kind == "3DFACE" { [10, 11, 12, 13] } else { [10, 11, 13, 12] };
+            let given = order.into_iter().filter(|code| entity.number(*code).is_some());
+            let (mut corners, heights): (Vec<Point>, Vec<f64>) =
+                given.map(|code| (point(entity, code), entity.number(code + 20).unwrap_or(0.0))).unzip();
             corners.dedup();
-            Subpath::closed(&corners).map_or(Shape::Unreadable("it has no corners"), Shape::Curve)
+            match Subpath::closed(&corners) {
+                Some(_) if heights.iter().any(|z| *z != heights[0]) => return Some(Shape::Unreadable(NOT_PLANE)),
+                outline => outline.map_or(Shape::Unreadable("it has no corners"), Shape::Curve),
+            }
         }
         "POINT" => Shape::Point(point(entity, 10)),
         "SPLINE" => match spline(entity) {
             Some(curve) => Shape::Curve(curve),
             None => Shape::Unreadable("its control points and knots are not complete"),
         },
-        "3DFACE" | "3DSOLID" | "BODY" | "MESH" | "REGION" | "SURFACE" => Shape::Unreadable("it is not a plane outline"),
+        "3DSOLID" | "BODY" | "MESH" | "REGION" | "SURFACE" => Shape::Unreadable("it is not a plane outline"),
         "MLINE" => Shape::Unreadable("a multiline (MLINE) has no single outline"),
         _ => return None,
     };
@@ -69,7 +68,7 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
             Shape::Curve(curve.mapped(&crate::sources::import::subpath::Affine::scale(-1.0, 1.0)))
         }
         (Extrusion::Down, shape) => shape,
-        (Extrusion::Other, _) => Shape::Unreadable("it does not lie in the plane of the drawing"),
+        (Extrusion::Other, _) => Shape::Unreadable(NOT_PLANE),
     })
 }
 
@@ -131,34 +130,11 @@ pub(super) fn polyline(corners: &[Corner], is_closed: bool) -> Shape {
         return Shape::Unreadable("it has no corners");
     };
     let mut segments: Vec<Segment> =
-        corners.windows(2).map(|pair| segment(pair[0].at, pair[1].at, pair[0].bulge)).collect();
-    if is_closed && last.bulge.abs() > MIN_BULGE && last.at != first.at {
-        segments.push(segment(last.at, first.at, last.bulge));
+        corners.windows(2).map(|pair| Segment::bulged(pair[0].at, pair[1].at, pair[0].bulge)).collect();
+    if is_closed && last.bulge != 0.0 && last.at != first.at {
+        segments.push(Segment::bulged(last.at, first.at, last.bulge));
     }
     Shape::Curve(Subpath { start: first.at, segments, closed: is_closed })
-}
-
-/// Returns the segment between two corners: an arc, or a straight line if the bulge is negligible. The bulge is the
-/// tangent of a quarter of the arc's angle, and is positive if the arc turns anticlockwise from `from` to `to`.
-///
-/// With half the chord c and the bulge b, the sagitta is b·c and the radius is c·(1+b²)/(2|b|). The centre lies
-/// c·(1−b²)/(2b) to the left of the middle of the chord.
-fn segment(from: Point, to: Point, bulge: f64) -> Segment {
-    let half = (to - from) / 2.0;
-    if !(bulge.abs() > MIN_BULGE) || half.norm() == 0.0 {
-        return Segment::Line(to);
-    }
-    let left = Vector::new(-half.y, half.x);
-    let centre = from + half + left * ((1.0 - bulge * bulge) / (2.0 * bulge));
-    let start = from - centre;
-    Segment::Arc(Arc {
-        centre,
-        u: start,
-        v: Vector::new(-start.y, start.x),
-        from: 0.0,
-        sweep: 4.0 * libm::atan(bulge),
-        to,
-    })
 }
 
 /// Reads an ARC: centre, radius, and the angles of start and end in degrees, measured anticlockwise.

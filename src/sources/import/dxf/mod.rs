@@ -1,18 +1,16 @@
-//! Reads DXF drawings into a [`Draft`]: closed outlines, circles, hatches, and loops of lines and arcs.
+//! Reads DXF drawings into a [`Draft`]: outlines, circles, hatches, lines and arcs.
 //!
 //! | step | file |
 //! |---|---|
 //! | 1. split the text into records of group codes and values | `record` |
 //! | 2. find the header, the layers, the blocks and the entities | `record` |
 //! | 3. convert each entity to curves in its own coordinates | `entity`, `hatch` |
-//! | 4. insert blocks with their transform, and sort the curves by layer | `walk` |
-//! | 5. join open curves that meet into loops | `chain` |
+//! | 4. insert blocks with their transform, and group the curves by layer | `walk` |
 //!
 //! The role of an entity follows from the name of its layer or block, as in other drawings. The name of a layer can
 //! also be a material: a layer "granite" sets density and friction. Group codes are those of the AutoCAD DXF
 //! reference.
 
-mod chain;
 mod entity;
 mod hatch;
 mod record;
@@ -40,14 +38,12 @@ pub(super) fn read(text: &str, scale: Scale, naming: &Naming<'_>) -> Result<Draf
         naming,
         metres,
         draft: Draft { unit: metres, ..Draft::default() },
-        open: BTreeMap::new(),
-        hatches: Vec::new(),
-        left_out: BTreeMap::new(),
+        groups: BTreeMap::new(),
         inserted: 0,
     };
     walk.draft.notes.push(note);
     walk.drawing()?;
-    Ok(walk.finish())
+    Ok(walk.draft)
 }
 
 /// Returns the length in metres of the unit with this `$INSUNITS` code, and a note that the drawing states this unit.

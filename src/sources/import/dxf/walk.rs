@@ -3,19 +3,17 @@
 
 use std::collections::BTreeMap;
 
-use super::chain::{OpenCurve, chains};
 use super::entity::{Extrusion, Shape, count, curve, extrusion, point};
 use super::hatch;
 use super::record::{Block, Document, Record};
-use crate::geometry::{Bounds, Point};
-use crate::sources::import::LENGTH_TOL;
 use crate::sources::import::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
 use crate::sources::import::limit::{MAX_BODIES, too_many};
 use crate::sources::import::naming::Naming;
 use crate::sources::import::stone::Stone;
 use crate::sources::import::subpath::{Affine, Subpath};
-use crate::text::and_more;
 
+/// The largest number of lines and outlines, copies included. Several lines make one outline.
+const MAX_LINES: usize = 10 * MAX_BODIES;
 /// The largest nesting depth of blocks.
 const MAX_DEPTH: usize = 16;
 /// Kinds of entities without outlines that drawings often contain. They are counted, and not reported one by one.
@@ -46,11 +44,8 @@ pub(super) struct DxfWalk<'d> {
     /// Metres per unit of the drawing.
     pub(super) metres: f64,
     pub(super) draft: Draft,
-    /// Open curves by layer and by insertion: only curves of one layer in one insertion form a loop.
-    pub(super) open: BTreeMap<(String, usize), (EntityContext, Vec<OpenCurve>)>,
-    pub(super) hatches: Vec<(EntityContext, Vec<Subpath>, String)>,
-    /// The number of entities that are left out, by reason.
-    pub(super) left_out: BTreeMap<String, usize>,
+    /// The groups of lines: those of one layer in one insertion.
+    pub(super) groups: BTreeMap<(String, usize), usize>,
     /// The number of insertions so far.
     pub(super) inserted: usize,
 }
@@ -87,7 +82,7 @@ impl<'d> DxfWalk<'d> {
 
     fn entities(&mut self, records: &'d [Record<'d>], around: &EntityContext) -> Result<(), String> {
         for (i, entity) in records.iter().enumerate() {
-            if self.draft.parts.len() > MAX_BODIES {
+            if self.draft.parts.len() > MAX_LINES {
                 return Err(too_many(self.draft.parts.len()).message);
             }
             if entity.kind == "VERTEX" || entity.kind == "SEQEND" {
@@ -113,7 +108,7 @@ impl<'d> DxfWalk<'d> {
     /// `None`, and counts the entity as left out, if it is in paper space or on a hidden or ignored layer.
     fn place(&mut self, entity: &Record<'_>, around: &EntityContext) -> Option<EntityContext> {
         if entity.integer(67) == 1 {
-            self.leave("entities in paper space");
+            self.draft.skip("they are in paper space", described(entity, around));
             return None;
         }
         let layer = match entity.text(8).unwrap_or("0") {
@@ -121,12 +116,12 @@ impl<'d> DxfWalk<'d> {
             layer => layer.to_owned(),
         };
         if self.document.hidden_layers.contains(layer.as_str()) {
-            self.leave("entities on layers that are off or frozen");
+            self.draft.skip("their layers are off or frozen", described(entity, around));
             return None;
         }
         let role = self.naming.role(&layer).or(around.role);
         if role == Some(Role::Ignored) {
-            self.leave("entities on layers whose names begin with ignore or guide, or are given with --ignore");
+            self.draft.skip(self.naming.why_ignored(), described(entity, around));
             return None;
         }
         Some(EntityContext { layer, role, ..around.clone() })
@@ -136,35 +131,38 @@ impl<'d> DxfWalk<'d> {
         let element = described(entity, &place);
         match curve(entity, vertices) {
             Some(Shape::Curve(curve)) => {
-                let curve = curve.mapped(&place.map);
-                if curve.closed {
-                    self.part(&place, vec![curve], element);
-                } else {
-                    let key = (place.layer.clone(), place.insertion);
-                    let (_, list) = self.open.entry(key).or_insert((place, Vec::new()));
-                    list.push(OpenCurve { curve, element });
-                }
+                self.part(&place, vec![curve.mapped(&place.map)], element);
             }
             Some(Shape::Point(at)) if place.role == Some(Role::Robot) => {
                 let form = PartGeometry::Point(place.map.point(at));
                 self.draft.parts.push(new_part(&place, form, element));
             }
-            Some(Shape::Point(_)) => self.leave("POINT"),
+            Some(Shape::Point(_)) => self.annotation("point", element),
             Some(Shape::Unreadable(why)) => {
-                self.draft.remark(element, format!("{why}; left out"), "draw the block as a closed polyline")
+                self.draft.lose("entity", &element, why, "draw the block as a closed polyline");
             }
-            None if ANNOTATIONS.contains(&entity.kind) => self.leave(entity.kind),
-            None => self.draft.remark(
-                element,
-                "entities of this kind are not read; left out",
-                "draw the block as a closed polyline",
-            ),
+            None if ANNOTATIONS.contains(&entity.kind) => {
+                let is_text = matches!(entity.kind, "TEXT" | "MTEXT" | "ATTRIB" | "ATTDEF");
+                self.annotation(if is_text { "text" } else { "annotation" }, element);
+            }
+            None => {
+                let why = "entities of this kind are not read";
+                self.draft.lose("entity", &element, why, "draw the block as a closed polyline");
+            }
         }
+    }
+
+    /// Notes and counts an entity that never becomes a block.
+    fn annotation(&mut self, what: &'static str, element: String) {
+        self.draft.skip("they have no outline", element);
+        *self.draft.left_out.entry(what).or_default() += 1;
     }
 
     fn part(&mut self, place: &EntityContext, curves: Vec<Subpath>, element: String) {
         let form = PartGeometry::Subpaths(curves, FillRule::EvenOdd);
-        self.draft.parts.push(new_part(place, form, element));
+        let next = self.groups.len();
+        let group = *self.groups.entry((place.layer.clone(), place.insertion)).or_insert(next);
+        self.draft.parts.push(Part { group, ..new_part(place, form, element) });
     }
 
     /// Reads the entities of the block that an INSERT entity inserts, once for each place in its grid of rows and
@@ -173,19 +171,19 @@ impl<'d> DxfWalk<'d> {
         let name = insert.text(2).unwrap_or("");
         let element = described(insert, around);
         let Some(block) = self.document.blocks.get(name) else {
-            let why = format!("its block `{}` is not in the file; left out", crate::text::heading(name, 60));
-            self.draft.remark(element, why, "");
+            let why = format!("its block `{}` is not in the file", crate::text::heading(name, 60));
+            self.draft.lose("entity", &element, &why, "");
             return Ok(());
         };
         // If flag 4 or 8 is set in group code 70, the block refers to another drawing file.
         if block.head.has_flag(70, 4 | 8) {
             let help = "bind the external drawing, or explode it";
-            self.draft.remark(element, "it refers to another drawing file; left out", help);
+            self.draft.lose("entity", &element, "it refers to another drawing file", help);
             return Ok(());
         }
         if around.depth >= MAX_DEPTH {
-            let why = format!("blocks are nested more than {MAX_DEPTH} levels deep; left out");
-            self.draft.remark(element, why, "explode the blocks");
+            let why = format!("blocks are nested more than {MAX_DEPTH} levels deep");
+            self.draft.lose("entity", &element, &why, "explode the blocks");
             return Ok(());
         }
         let mut role = around.role;
@@ -193,7 +191,7 @@ impl<'d> DxfWalk<'d> {
             role = Some(own);
         }
         if role == Some(Role::Ignored) {
-            self.leave("entities in blocks whose names begin with ignore or guide, or are given with --ignore");
+            self.draft.skip(self.naming.why_ignored(), element);
             return Ok(());
         }
         let times = |code: i32| insert.text(code).map_or(1, count).max(1);
@@ -225,90 +223,20 @@ impl<'d> DxfWalk<'d> {
         let element = described(entity, place);
         match hatch::loops(entity) {
             Ok(loops) => {
-                let loops = loops.iter().map(|curve| curve.mapped(&place.map)).collect();
-                self.hatches.push((place.clone(), loops, element));
+                self.part(place, loops.iter().map(|curve| curve.mapped(&place.map)).collect(), element);
+                if let Some(part) = self.draft.parts.last_mut() {
+                    part.is_fill = true;
+                }
             }
-            Err(why) => self.draft.remark(element, format!("{why}; left out"), ""),
-        }
-    }
-
-    fn leave(&mut self, reason: &str) {
-        *self.left_out.entry(reason.to_owned()).or_default() += 1;
-    }
-
-    /// Joins open curves into loops, adds the boundaries of hatches that do not fill a drawn outline, adds notes
-    /// about everything that is left out, and returns the draft.
-    pub(super) fn finish(mut self) -> Draft {
-        let boxes = self.open.values().flat_map(|(_, list)| list).map(|o| around(&o.curve));
-        let size = boxes.chain(self.draft.parts.iter().map(part_box)).flatten().reduce(Bounds::union);
-        // Two ends meet if their distance is at most `LENGTH_TOL` times the size of the drawing.
-        let tolerance = LENGTH_TOL * size.map_or(0.0, Bounds::diagonal);
-        for ((layer, _), (place, list)) in std::mem::take(&mut self.open) {
-            self.chain(&layer, &place, list, tolerance);
-        }
-        self.add_hatches();
-        for (reason, number) in std::mem::take(&mut self.left_out) {
-            self.draft.notes.push(format!("left out: {reason} ({number})"));
-        }
-        self.draft
-    }
-
-    fn chain(&mut self, layer: &str, place: &EntityContext, list: Vec<OpenCurve>, tolerance: f64) {
-        let chained = if tolerance > 0.0 { chains(list, tolerance) } else { Default::default() };
-        for (curve, element) in chained.loops {
-            self.part(place, vec![curve], element);
-        }
-        let Some(first) = chained.left.first() else {
-            return;
-        };
-        let more = match and_more(chained.left.len() - 1) {
-            none if none.is_empty() => none,
-            more => format!("{more} on layer {}", crate::text::heading(layer, 60)),
-        };
-        let (why, help) = match chained.branch {
-            Some(at) => (
-                format!(
-                    "more than two lines meet at ({:.6}, {:.6}) m, so they form no single loop; left out",
-                    at.x, at.y
-                ),
-                "draw each block as a closed polyline, for example with the command BOUNDARY",
-            ),
-            None => ("the lines do not close to a loop; left out".to_owned(), "close the outline"),
-        };
-        self.draft.remark(format!("{}{more}", first.element), why, help);
-    }
-
-    /// Adds the boundaries of hatches as outlines, unless they coincide with outlines that are drawn.
-    fn add_hatches(&mut self) {
-        let mut drawn: Vec<Bounds> = self.draft.parts.iter().filter_map(part_box).collect();
-        drawn.sort_by(|a, b| a.min.x.total_cmp(&b.min.x));
-        let mut filled = 0;
-        for (place, loops, element) in std::mem::take(&mut self.hatches) {
-            let total = loops.len();
-            let own: Vec<Subpath> =
-                loops.into_iter().filter(|curve| around(curve).is_some_and(|own| !coincides(own, &drawn))).collect();
-            filled += total - own.len();
-            if !own.is_empty() {
-                self.part(&place, own, element);
-            }
-        }
-        if filled > 0 {
-            self.draft.notes.push(format!("left out: boundaries of hatches that fill a drawn outline ({filled})"));
+            Err(why) => self.draft.lose("hatch", &element, why, ""),
         }
     }
 }
 
 fn new_part(place: &EntityContext, form: PartGeometry, element: String) -> Part {
     let stone = Stone::from_name(&place.layer);
-    Part {
-        kind: place.role.unwrap_or(Role::Block),
-        name: place.block.clone(),
-        element,
-        form,
-        clips: Vec::new(),
-        fill: None,
-        values: Values { friction: stone.map(|s| s.friction), density: stone.map(|s| s.density), weight: None },
-    }
+    let values = Values { friction: stone.map(|s| s.friction), density: stone.map(|s| s.density), ..Values::default() };
+    Part { values, ..Part::new(place.role, &place.block, element, form) }
 }
 
 /// Returns the kind, layer and line of an entity as text, so that the user finds it in the drawing.
@@ -333,34 +261,4 @@ fn transform(insert: &Record<'_>, block: &Block<'_>, [column, row]: [usize; 2]) 
         Extrusion::Down => Affine::scale(-1.0, 1.0).after(&map),
         _ => map,
     }
-}
-
-/// Two outlines coincide if their boxes differ by at most this share of their size.
-const COINCIDENCE_TOL: f64 = 1e-6;
-
-/// Returns the bounding box of a curve, in which an arc counts as its whole ellipse. Returns `None` if a coordinate is
-/// not finite.
-pub(super) fn around(curve: &Subpath) -> Option<Bounds> {
-    let hull = curve.hull();
-    let is_finite = hull.iter().all(|p: &Point| p.x.is_finite() && p.y.is_finite());
-    if is_finite { Bounds::from_points(hull) } else { None }
-}
-
-/// Returns the bounding box of a part; `None` for a point, or if no curve has finite coordinates.
-pub(super) fn part_box(part: &Part) -> Option<Bounds> {
-    match &part.form {
-        PartGeometry::Subpaths(curves, _) => curves.iter().filter_map(around).reduce(Bounds::union),
-        PartGeometry::Point(_) => None,
-    }
-}
-
-/// True if the box `own` coincides with one of `boxes`, within a millionth of the diagonal of `own`. `boxes` must be
-/// sorted by `min.x`.
-pub(super) fn coincides(own: Bounds, boxes: &[Bounds]) -> bool {
-    let tolerance = COINCIDENCE_TOL * own.diagonal();
-    let first = boxes.partition_point(|b| b.min.x < own.min.x - tolerance);
-    boxes[first..]
-        .iter()
-        .take_while(|b| b.min.x <= own.min.x + tolerance)
-        .any(|b| (b.min - own.min).norm() <= tolerance && (b.max - own.max).norm() <= tolerance)
 }

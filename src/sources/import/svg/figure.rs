@@ -8,8 +8,8 @@ use super::style::Style;
 use super::viewport::Viewport;
 use super::walk::SvgWalk;
 use super::xml::{is, words};
-use crate::sources::import::draft::{FillRule, Part, PartGeometry, Role, Values};
-use crate::sources::import::subpath::Affine;
+use crate::sources::import::draft::{FillRule, Part, PartGeometry, Role};
+use crate::sources::import::subpath::{Affine, Subpath};
 
 const SCALE_ATTRIBUTE: &str = "data-drystone-scale";
 const ORIGIN_ATTRIBUTE: &str = "data-drystone-origin";
@@ -137,16 +137,17 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             _ => self.lines.element(path),
         };
         match element::subpaths(path, around.viewport) {
-            Ok(subpaths) => self.draft.parts.push(Part {
-                kind,
-                name: name.to_owned(),
-                element,
-                form: PartGeometry::Subpaths(subpaths.iter().map(|t| t.mapped(&map)).collect(), FillRule::NonZero),
-                clips: Vec::new(),
-                fill: None,
-                values: Values::default(),
-            }),
-            Err(why) => self.draft.remark(element, format!("{why}; left out"), ""),
+            Ok(subpaths) => {
+                // Open lines repeat the outline of a body in another colour.
+                let outlines = subpaths.iter().filter(|subpath| subpath.closed);
+                let mapped: Vec<Subpath> = outlines.map(|outline| outline.mapped(&map)).collect();
+                if mapped.is_empty() {
+                    return;
+                }
+                let form = PartGeometry::Subpaths(mapped, FillRule::NonZero);
+                self.draft.parts.push(Part::new(Some(kind), name, element, form));
+            }
+            Err(why) => self.draft.lose("outline", &element, &why, ""),
         }
     }
 }

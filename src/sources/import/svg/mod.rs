@@ -5,14 +5,13 @@
 //!    it.
 //! 3. Convert shapes to subpaths in metres, with y up.
 //!
-//! Elements that are drawn but cannot become a body are reported, at most [`remark::MAX_LISTED_REMARKS`] of one kind.
+//! Elements that are drawn but cannot become a body are reported.
 
 mod context;
 mod element;
 mod figure;
 mod name;
 mod path;
-mod remark;
 mod shape;
 mod style;
 mod viewport;
@@ -88,7 +87,6 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
         seen: 0,
         more: 0,
         clip_corners: 0,
-        remarked: BTreeMap::new(),
     };
     if let Some(title) = root.children().find(|n| is(*n, "title")) {
         walk.draft.title = words(title);
@@ -112,7 +110,6 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
             "its clip paths have more than {MAX_CLIP_CORNERS} corners in all clipped elements; cut the outlines themselves"
         ));
     }
-    walk.count_unlisted();
     if walk.more > 0 {
         return Err(too_many(walk.draft.parts.len() + walk.more).message);
     }

@@ -4,11 +4,10 @@ use roxmltree::Node;
 use svgtypes::{TransformListParser, TransformListToken};
 
 use super::context::Context;
-use super::remark::RemarkKind;
 use super::style::Fill;
 use super::walk::{MAX_CLIP_CORNERS, SvgWalk};
 use super::{element, name};
-use crate::sources::import::draft::{Part, PartGeometry, Role, Values};
+use crate::sources::import::draft::{Part, PartGeometry};
 use crate::sources::import::limit::MAX_BODIES;
 use crate::sources::import::subpath::Affine;
 
@@ -22,8 +21,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         let subpaths = match element::subpaths(node, around.viewport) {
             Ok(subpaths) => subpaths,
             Err(why) => {
-                let why = format!("{why}; left out");
-                self.remark(RemarkKind::BrokenOutline, node, around, &why, "");
+                self.lose("outline", node, around, &why, "");
                 return;
             }
         };
@@ -37,34 +35,24 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             return;
         }
         let mapped = subpaths.iter().map(|t| t.mapped(&around.map)).collect();
-        let part = Part {
-            kind: around.kind.unwrap_or(Role::Block),
-            name: shape_name(node, around),
-            element: self.element_label(node, around),
-            form: PartGeometry::Subpaths(mapped, around.style.rule),
-            clips: around.clips.clone(),
-            fill,
-            values: Values::default(),
-        };
-        self.draft.parts.push(part);
+        let (name, element) = (shape_name(node, around), self.element_label(node, around));
+        let form = PartGeometry::Subpaths(mapped, around.style.rule);
+        let part = Part::new(around.kind, &name, element, form);
+        self.draft.parts.push(Part { clips: around.clips.clone(), fill, ..part });
     }
 
     /// Returns the fill colour of a shape. `None` if the drawing specifies no fill colour. A fill that cannot be a
     /// material is reported, and the result is also `None`.
     fn fill(&mut self, node: Node<'a, 'd>, around: &Context) -> Option<[u8; 3]> {
-        let (kind, why, help) = match around.style.fill {
+        let (why, help) = match around.style.fill {
             Fill::Colour(fill) => return Some(fill),
             Fill::Unspecified | Fill::None => return None,
-            Fill::Paint => (
-                RemarkKind::Gradient,
-                "a gradient or pattern cannot become a material; the fill is not imported",
-                "use one colour",
-            ),
-            Fill::Unknown => {
-                (RemarkKind::BadFill, "its fill is not a valid colour; it is not imported", "write it as #rrggbb")
+            Fill::Paint => {
+                ("a gradient or pattern cannot become a material; the fill is not imported", "use one colour")
             }
+            Fill::Unknown => ("its fill is not a valid colour; it is not imported", "write it as #rrggbb"),
         };
-        self.remark(kind, node, around, why, help);
+        self.remark(node, around, why, help);
         None
     }
 
@@ -75,7 +63,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         for token in TransformListParser::from(node.attribute("transform").unwrap_or("")) {
             let Ok(token) = token else {
                 let why = "its transform cannot be read completely; the part before the error is used";
-                self.remark(RemarkKind::BadTransform, node, around, why, "");
+                self.remark(node, around, why, "");
                 break;
             };
             map = map.after(&match token {

@@ -7,19 +7,16 @@ use simplecss::StyleSheet;
 
 use super::context::{Context, UseElement};
 use super::name::{self, Lines};
-use super::remark::{MAX_LISTED_REMARKS, RemarkKind};
 use super::style::{self, Style};
-use super::viewport::{self, Viewport};
+use super::viewport;
 use super::xml::{SVG, is, is_never_drawn};
 use super::{MAX_RULE_MATCHES, element, weight};
-use crate::geometry::{Point, Vector};
-use crate::sources::import::draft::{Draft, Part, PartGeometry, Role, Scale};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::sources::import::draft::{Draft, Role, Scale};
 use crate::sources::import::naming::Naming;
 use crate::sources::import::subpath::{Affine, Subpath};
 
 const XLINK_NAMESPACE: &str = "http://www.w3.org/1999/xlink";
-/// An outline is as large as the page if its corners are this close to those of the page, as a share of its diagonal.
-const PAGE_TOL: f64 = 0.005;
 /// The largest nesting depth of groups and copies; deeper files could overflow the stack.
 pub(super) const MAX_DEPTH: usize = 100;
 /// The largest number of corners of clip paths, each as often as it clips.
@@ -51,8 +48,6 @@ pub(super) struct SvgWalk<'a, 'd> {
     pub(super) more: usize,
     /// The number of corners of all clip paths, each as often as it clips.
     pub(super) clip_corners: usize,
-    /// The number of remarks of each kind.
-    pub(super) remarked: BTreeMap<RemarkKind, usize>,
 }
 
 impl<'a, 'd> SvgWalk<'a, 'd> {
@@ -67,35 +62,10 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         let style = Style::ROOT.of_child(root, &self.sheet);
         let around = Context::of_page(map, style, page.viewport);
         self.children(root, &around);
-        self.leave_page_out(map.point(Point::new(page.left, page.bottom)), page.viewport, scale);
+        let corner = map.point(Point::new(page.left, page.bottom));
+        let size = Vector::new(page.viewport.width, page.viewport.height) * scale;
+        self.draft.page = Some(Bounds { min: corner, max: corner + size });
         Ok(())
-    }
-
-    /// Leaves out rectangles of the size of the page without a role, the backgrounds and frames that design programs
-    /// draw, unless there is nothing else. `corner` is the lower left corner of the page in metres.
-    fn leave_page_out(&mut self, corner: Point, page: Viewport, scale: f64) {
-        let size = Vector::new(page.width, page.height) * scale;
-        if self.draft.parts.len() < 2 || !(size.x > 0.0 && size.y > 0.0) {
-            return;
-        }
-        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
-        let corners = corners.map(|(x, y)| corner + Vector::new(x * size.x, y * size.y));
-        let is_page = |part: &Part| {
-            let PartGeometry::Subpaths(subpaths, _) = &part.form else { return false };
-            let hull: Vec<Point> = subpaths.iter().flat_map(Subpath::hull).collect();
-            part.kind == Role::Block
-                && part.clips.is_empty()
-                && (4..=5).contains(&hull.len())
-                && !subpaths.iter().any(Subpath::has_curves)
-                && corners.iter().all(|c| hull.iter().any(|p| (p - c).norm() <= PAGE_TOL * size.norm()))
-        };
-        let (pages, parts): (Vec<Part>, Vec<Part>) =
-            std::mem::take(&mut self.draft.parts).into_iter().partition(is_page);
-        self.draft.parts = parts;
-        for page in pages {
-            let why = "it is as large as the page, so it is a background";
-            self.draft.notes.push(format!("{} is left out: {why}", page.element));
-        }
     }
 
     fn children(&mut self, node: Node<'a, 'd>, around: &Context) {
@@ -128,7 +98,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         if style.masked {
             let why = "masks are not supported; the whole outline is imported";
             let help = "cut the outline itself";
-            self.remark(RemarkKind::Mask, node, around, why, help);
+            self.remark(node, around, why, help);
         }
         let mut inner = Context {
             map: around.map.after(&self.transform(node, around)),
@@ -142,7 +112,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                 Some(clip) => inner.clips.push(clip),
                 None => {
                     let why = "its clip path is not a single outline; the whole outline is imported";
-                    self.remark(RemarkKind::ClipPath, node, around, why, "cut the outline itself");
+                    self.remark(node, around, why, "cut the outline itself");
                 }
             }
         }
@@ -176,6 +146,16 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         reference(node).and_then(|r| r.trim().strip_prefix('#')).and_then(|id| self.ids.get(id).copied())
     }
 
+    /// True if an element draws letters as outlines: a group with an id such as `text_3`, as matplotlib writes it, or a copy
+    /// of a letter, with an id such as `glyph-0-1`, as cairo writes it.
+    fn is_text(&self, node: Node<'a, 'd>) -> bool {
+        let is_count = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        let has_id = |node: Node<'_, '_>, is: &dyn Fn(&str) -> bool| node.attribute("id").is_some_and(is);
+        (is(node, "g") && has_id(node, &|id| id.strip_prefix("text_").is_some_and(is_count)))
+            || (is(node, "use")
+                && self.copied(node).is_some_and(|letter| has_id(letter, &|id| id.starts_with("glyph"))))
+    }
+
     /// Counts an element. Returns true if the element exceeds a limit: on the comparisons with style rules, for which the
     /// drawing is refused, or, with a remark, on the number of elements or on the nesting depth.
     fn is_beyond_limits(&mut self, node: Node<'a, 'd>, around: &Context) -> bool {
@@ -185,14 +165,13 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             return true;
         }
         if self.seen > MAX_ELEMENTS {
-            let why =
-                format!("the drawing has more than {MAX_ELEMENTS} elements, copies included; this one is left out");
-            self.remark(RemarkKind::TooManyElements, node, around, &why, "");
+            let why = format!("the drawing has more than {MAX_ELEMENTS} elements, copies included");
+            self.lose("element", node, around, &why, "");
             return true;
         }
         if around.depth >= MAX_DEPTH {
-            let why = format!("groups are nested more than {MAX_DEPTH} levels deep; left out");
-            self.remark(RemarkKind::TooDeep, node, around, &why, "ungroup them");
+            let why = format!("groups are nested more than {MAX_DEPTH} levels deep");
+            self.lose("element", node, around, &why, "ungroup them");
             return true;
         }
         false
@@ -203,6 +182,10 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     fn draw(&mut self, node: Node<'a, 'd>, around: &Context, mut inner: Context) {
         let tag = node.tag_name().name();
         match tag {
+            _ if self.is_text(node) => {
+                let help = "if it should become blocks, give it another id";
+                self.lose("text", node, around, "a text cannot become a block", help);
+            }
             "g" | "a" | "switch" | "svg" | "symbol" => {
                 if let Some(name) = name::user_name(node).filter(|_| !name::is_layer(node)) {
                     inner.group = Some(name);
@@ -222,26 +205,25 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                 }
             }
             "use" => self.copy(node, inner),
-            "text" | "flowRoot" => self.remark(
-                RemarkKind::Text,
+            "text" | "flowRoot" => self.lose(
+                "text",
                 node,
                 around,
-                "a text cannot become a block; left out",
+                "a text cannot become a block",
                 "convert it to paths if it should become blocks, or give its layer a name that begins with ignore",
             ),
-            "image" => self.remark(
-                RemarkKind::Image,
+            "image" => self.lose(
+                "image",
                 node,
                 around,
-                "an image has no outlines; left out",
+                "an image has no outlines",
                 "trace it, or give its layer a name that begins with ignore",
             ),
             "rect" | "circle" | "ellipse" | "polygon" | "polyline" | "path" | "line" => {
                 self.shape(node, &inner);
             }
             _ => {
-                let why = format!("<{tag}> is not a known element; left out");
-                self.remark(RemarkKind::Unknown, node, around, &why, "");
+                self.lose("element", node, around, &format!("<{tag}> is not a known element"), "");
             }
         }
     }
@@ -249,12 +231,12 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     /// Reads the element to which a `<use>` element refers.
     fn copy(&mut self, node: Node<'a, 'd>, mut inner: Context) {
         let Some(target) = self.copied(node) else {
-            let why = format!("it copies {}, which does not exist; left out", reference(node).unwrap_or("nothing"));
-            self.remark(RemarkKind::MissingCopy, node, &inner, &why, "");
+            let why = format!("it copies {}, which does not exist", reference(node).unwrap_or("nothing"));
+            self.lose("element", node, &inner, &why, "");
             return;
         };
         if node == target || node.ancestors().any(|a| a == target) {
-            self.remark(RemarkKind::MissingCopy, node, &inner, "it copies itself; left out", "");
+            self.lose("element", node, &inner, "it copies itself", "");
             return;
         }
         let (x, y) =
@@ -281,39 +263,21 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         }
     }
 
-    /// Adds a note that an element is left out, with the reason.
+    /// Notes that an element is left out on purpose, with the reason.
     pub(super) fn skip(&mut self, node: Node<'a, 'd>, around: &Context, why: &str) {
-        let times = self.remarked.entry(RemarkKind::Skipped).or_default();
-        *times += 1;
-        if *times <= MAX_LISTED_REMARKS {
-            let note = format!("{} is left out: {why}", self.element_label(node, around));
-            self.draft.notes.push(note);
-        }
+        let element = self.element_label(node, around);
+        self.draft.skip(why, element);
     }
 
-    /// Adds a remark about an element, up to a limit for its kind.
-    pub(super) fn remark(&mut self, kind: RemarkKind, node: Node<'a, 'd>, around: &Context, message: &str, help: &str) {
-        let times = self.remarked.entry(kind).or_default();
-        *times += 1;
-        if *times <= MAX_LISTED_REMARKS {
-            let element = self.element_label(node, around);
-            self.draft.remark(element, message, help);
-        }
+    /// Reports an element that is left out, and counts it as one `what`.
+    pub(super) fn lose(&mut self, what: &'static str, node: Node<'a, 'd>, around: &Context, why: &str, help: &str) {
+        let element = self.element_label(node, around);
+        self.draft.lose(what, &element, why, help);
     }
 
-    /// For each kind of remarks that are not all listed, adds a remark or note with the number of unlisted remarks.
-    pub(super) fn count_unlisted(&mut self) {
-        for (kind, times) in &self.remarked {
-            let Some(more) = times.checked_sub(MAX_LISTED_REMARKS).filter(|more| *more > 0) else {
-                continue;
-            };
-            match kind.plural() {
-                None => {
-                    let note = format!("{more} more elements are left out for the same reasons");
-                    self.draft.notes.push(note);
-                }
-                Some(plural) => self.draft.remark("", format!("{more} more {plural}"), ""),
-            }
-        }
+    /// Adds a remark about an element that is imported, but not exactly as drawn.
+    pub(super) fn remark(&mut self, node: Node<'a, 'd>, around: &Context, message: &str, help: &str) {
+        let element = self.element_label(node, around);
+        self.draft.remark(element, message, help);
     }
 }

@@ -193,7 +193,7 @@ fn slivers_count_as_interfaces_on_request() {
     let row = |shared: f64, x: f64| [rectangle(x, 0.0, 1.0, 1.0), rectangle(x - 1.0 + shared, 1.0, 1.0, 1.0)];
     let rows = [row(1e-7, -3.0), row(3e-7, 0.0), row(2e-7, 3.0)].concat();
     let found = Interfaces::new(&scene(vec![rectangle(-9.0, -1.0, 18.0, 1.0)], rows));
-    let begin = "3 contact(s) up to 3.1e-7 m long are shorter than ";
+    let begin = "3 contact(s) up to 3.1×10⁻⁷ m long are shorter than ";
     assert!(found.notices[0].starts_with(begin), "{:?}", found.notices);
 }
 
