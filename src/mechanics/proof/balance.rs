@@ -160,7 +160,6 @@ pub fn imbalances(assembly: &Assembly, forces: &Forces) -> Vec<f64> {
 /// exceeds the largest τ found so far.
 pub(super) fn worst_imbalance(assembly: &Assembly, forces: &Forces) -> (f64, f64) {
     let mut all = forces_by_body(assembly, forces);
-    let residuals: Vec<f64> = all.iter().map(|body| libm::hypot(body.residual()[0], body.residual()[1])).collect();
     let mut share: f64 = 0.0;
     let mut bounds: Vec<(f64, usize)> = Vec::with_capacity(all.len());
     for (number, body) in all.iter_mut().enumerate() {
@@ -188,7 +187,7 @@ pub(super) fn worst_imbalance(assembly: &Assembly, forces: &Forces) -> (f64, f64
         imbalance = imbalance.max(all[number].imbalance());
     }
     if imbalance > 0.0 {
-        imbalance = imbalance.max(chain_error(assembly, forces, &residuals));
+        imbalance = imbalance.max(chain_error(assembly, forces, &all));
     }
     (imbalance, share)
 }
@@ -203,13 +202,13 @@ const CHAIN: usize = 3;
 const GROWTH: RangeInclusive<f64> = 1.2..=1e3;
 
 /// Returns the largest residual of a body at the end of a chain, relative to the force that the chain passes to it; 0 if
-/// there is no chain. `residuals` are in N.
+/// there is no chain.
 ///
 /// In a row of round stones, each joint passes on only a part of the force of the joint before, because friction takes
 /// the rest. After a dozen stones, this part is small beside the weight of a stone. It is not small beside the force that
 /// the chain passes on, and what is missing there would have to grow from joint to joint. Where solver noise is left, it
 /// does not grow steadily to a real force.
-fn chain_error(assembly: &Assembly, forces: &Forces, residuals: &[f64]) -> f64 {
+fn chain_error(assembly: &Assembly, forces: &Forces, bodies: &[BodyForces]) -> f64 {
     let normal = |contact: usize| forces.contacts[contact].normal.iter().sum::<f64>();
     let strongest = (0..assembly.contacts.len()).map(normal).fold(0.0, f64::max);
     // The joints between two bodies that carry a force.
@@ -218,6 +217,10 @@ fn chain_error(assembly: &Assembly, forces: &Forces, residuals: &[f64]) -> f64 {
         Some((normal(contact), ends)).filter(|joint| joint.0 > 0.0)
     };
     let joints: Vec<(f64, [usize; 2])> = (0..assembly.contacts.len()).filter_map(joint).collect();
+    let is_weak = |joint: &&(f64, [usize; 2])| joint.0 <= WEAK * strongest;
+    if joints.iter().all(|joint| !is_weak(&joint)) {
+        return 0.0;
+    }
     let mut of_body: BTreeMap<usize, Vec<(f64, [usize; 2])>> = BTreeMap::new();
     for joint in &joints {
         joint.1.iter().for_each(|body| of_body.entry(*body).or_default().push(*joint));
@@ -237,9 +240,10 @@ fn chain_error(assembly: &Assembly, forces: &Forces, residuals: &[f64]) -> f64 {
         }
     };
     let mut worst: f64 = 0.0;
-    for (carried, ends) in joints.iter().filter(|joint| joint.0 <= WEAK * strongest) {
+    for (carried, ends) in joints.iter().filter(is_weak) {
         for end in ends {
-            let error = residuals[*end] / carried;
+            let [x, y, _] = bodies[*end].residual();
+            let error = libm::hypot(x, y) / carried;
             if error > worst && is_chain(*carried, other(*ends, *end)) {
                 worst = error;
             }
