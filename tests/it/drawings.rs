@@ -11,7 +11,7 @@ use drystone::{Analysis, Scene};
 
 /// Each file, its format, and what is expected: the number of blocks, the verdict, and words of its notes or of the
 /// count of what is left out.
-const FILES: [(&str, Format, usize, Verdict, &str); 21] = [
+const FILES: [(&str, Format, usize, Verdict, &str); 22] = [
     ("named-columns.csv", Format::Contacts, 2, Verdict::Stable, ""),
     ("arrays.csv", Format::Contacts, 2, Verdict::Stable, ""),
     ("decimal-commas.csv", Format::Contacts, 2, Verdict::Stable, ""),
@@ -29,6 +29,7 @@ const FILES: [(&str, Format, usize, Verdict, &str); 21] = [
     ("frame.svg", Format::Svg, 2, Verdict::Stable, "it is a frame"),
     ("pixels.svg", Format::Svg, 1, Verdict::Stable, ""),
     ("glyphs.svg", Format::Svg, 1, Verdict::Stable, "text"),
+    ("matplotlib.svg", Format::Svg, 3, Verdict::Stable, "it is a frame"),
     ("curved.svg", Format::Svg, 1, Verdict::Stable, ""),
     ("overlap.svg", Format::Svg, 2, Verdict::Stable, ""),
     ("bodies.csv", Format::Contacts, 2, Verdict::Stable, ""),

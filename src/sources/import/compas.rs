@@ -27,6 +27,8 @@ use crate::mechanics::scene::format::{BlockEntry, GroundEntry, Pair};
 /// Coordinates count as equal if they differ by less than this share of the largest coordinate. The thicknesses of the
 /// blocks are compared with the same share of the largest thickness.
 const EQUAL_COORDINATE_TOL: f64 = 1e-6;
+/// The ends of two blocks may differ by this share of the largest depth.
+const DEPTH_TOL: f64 = 1e-3;
 /// The largest number of comparisons of a vertex with an edge of the section of one block.
 const MAX_COMPARISONS: usize = 20_000_000;
 
@@ -88,7 +90,7 @@ pub(crate) fn sections(
 ///
 /// # Errors
 /// Returns an error if the text is not an assembly with blocks, if all blocks are supports, if the blocks are not
-/// prisms perpendicular to one of the planes, if no plane goes through all of them, if they differ in thickness and
+/// prisms perpendicular to one of the planes, if blocks lie at different depths, if they differ in thickness and
 /// `options` has no thickness, or if `--ground` or `--ignore` chooses nothing.
 pub(super) fn read(text: &str, options: &Options, planes: &[Plane]) -> Result<Imported, DrawingProblems> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -143,19 +145,22 @@ pub(super) fn read(text: &str, options: &Options, planes: &[Plane]) -> Result<Im
         let help = "blocks whose node has is_support become ground, and those that --ground chooses";
         return Err(refused("it has no block that is not a support".into(), help));
     }
-    // A structure is plane only if a plane goes through all blocks.
-    let first_end = depths.iter().min_by(|a, b| a.1[1].total_cmp(&b.1[1]));
-    let last_start = depths.iter().max_by(|a, b| a.1[0].total_cmp(&b.1[0]));
-    if let (Some((front, [near, end])), Some((back, [start, far]))) = (first_end, last_start)
-        && start >= end
-    {
-        let [front, back] = [front, back].map(|name| crate::text::line(name));
+    // A structure is plane only if the ends of thinner blocks lie between those of thicker ones.
+    let thickness = |one: &(&str, [f64; 2])| one.1[1] - one.1[0];
+    let mut nested = depths.clone();
+    nested.sort_by(|a, b| thickness(b).total_cmp(&thickness(a)));
+    let reach = nested.iter().flat_map(|one| one.1).map(f64::abs).fold(0.0, f64::max);
+    let off = DEPTH_TOL * reach;
+    let is_apart = |pair: &&[(&str, [f64; 2])]| pair[1].1[0] < pair[0].1[0] - off || pair[1].1[1] > pair[0].1[1] + off;
+    if let Some([front, back]) = nested.windows(2).find(is_apart) {
+        let ([near, end], [start, far]) = (front.1, back.1);
+        let [front, back] = [front, back].map(|one| crate::text::line(one.0));
         let message = format!(
-            "block {front} is {} to {} m deep and block {back} {} to {} m, so no plane goes through both",
-            short(*near),
-            short(*end),
-            short(*start),
-            short(*far)
+            "block {front} is {} to {} m deep and block {back} {} to {} m, so they do not lie in one plane",
+            short(near),
+            short(end),
+            short(start),
+            short(far)
         );
         return Err(refused(
             message,

@@ -373,9 +373,10 @@ fn build_scene(
     let size = outline::size(&mut draft);
     if size > 0.0 {
         tidy::leave_dust_out(&mut draft, size);
+        tidy::leave_frames_out(&mut draft, true);
         network::join(&mut draft, LENGTH_TOL * size);
         tidy::leave_fills_out(&mut draft);
-        tidy::leave_frames_out(&mut draft);
+        tidy::leave_frames_out(&mut draft, false);
     }
     let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(LENGTH_TOL * size);

@@ -99,8 +99,8 @@ pub(super) fn leave_fills_out(draft: &mut Draft) {
 }
 
 /// Leaves out the frames: rectangles without a role that are as large as the page, or around all else. At
-/// most [`MAX_FRAMES`] are left out.
-pub(super) fn leave_frames_out(draft: &mut Draft) {
+/// most [`MAX_FRAMES`] are left out. With `pages_only`, a rectangle around all else stays, because lines may cut it.
+pub(super) fn leave_frames_out(draft: &mut Draft, pages_only: bool) {
     for _ in 0..MAX_FRAMES {
         let boxes: Vec<Option<Bounds>> = draft.parts.iter().map(around).collect();
         let is_block = |i: &usize| draft.parts[*i].kind == Role::Block;
@@ -117,7 +117,7 @@ pub(super) fn leave_frames_out(draft: &mut Draft) {
         };
         let is_frame = |i: &usize| {
             let own = boxes[*i].filter(|own| is_rectangle(&draft.parts[*i], *own));
-            own.is_some_and(|own| is_page(own) || holds_all(own, *i))
+            own.is_some_and(|own| is_page(own) || (!pages_only && holds_all(own, *i)))
         };
         let Some(frame) = blocks.iter().copied().find(is_frame).filter(|_| blocks.len() > 1) else { return };
         let element = draft.parts.remove(frame).element;
