@@ -55,8 +55,8 @@ pub fn shortened(text: &str) -> String {
     if text.chars().count() <= 40 { text.to_string() } else { text.chars().take(37).chain("…".chars()).collect() }
 }
 
-/// Writes a number for a sentence, with one digit and this many more: `0.5`, `12`. Numbers below 0.001 or from a million
-/// on have a power of ten: `1.3×10⁻⁵`. Zeros at the end of the decimals are dropped.
+/// Writes a number as in a sentence, rounded to 1 + `decimals` significant digits: `0.5`, `12`. If it is less than 0.001,
+/// or at least a million, it is written with a power of ten: `1.3×10⁻⁵`. Trailing zeros are dropped.
 ///
 /// ```
 /// use drystone::internals::text::power_of_ten;
@@ -73,7 +73,7 @@ pub fn power_of_ten(x: f64, decimals: usize) -> String {
     format!("{sign}{}×10{}", without_zeros(mantissa), superscript(exponent))
 }
 
-/// Writes a whole number in superscript digits: `⁻⁹`.
+/// Writes a whole number as an exponent, in superscript digits: `⁻⁹` for −9.
 pub fn superscript(value: i32) -> String {
     let raised = |c: char| match c {
         '-' => '⁻',

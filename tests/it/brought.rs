@@ -218,7 +218,7 @@ fn a_block_model_of_compas_dem_is_read() {
 }
 
 #[test]
-fn an_assembly_with_a_block_behind_its_support_is_no_plane_structure() {
+fn an_assembly_with_blocks_at_different_depths_is_refused() {
     let element = |x: f64, y: f64, z: f64| {
         let matrix = json!([[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]);
         json!({ "data": { "name": "Block", "geometry": { "data": meshed(0.0, 0.0) }, "is_support": z == 0.0,

@@ -209,10 +209,8 @@ impl Import {
                 &self.drawings.iter().map(PathBuf::as_path).collect::<Vec<_>>(),
             )?;
         }
-        if let (Some(unit), Some(_)) = (self.unit.filter(|unit| *unit != Unit::Px), self.dpi) {
-            return Err(format!("--dpi is the size of a pixel, and --unit {unit:?} needs none; leave one of them out")
-                .to_lowercase()
-                .into());
+        if self.dpi.is_some() && self.unit.is_some_and(|unit| unit != Unit::Px) {
+            return Err("--dpi sets the size of a pixel, and the unit is another one; leave out --dpi or --unit".into());
         }
         if let (Some(ScaleArg::Metres(metres)), Some(_)) = (self.scale, self.unit()) {
             return Err(format!(

@@ -110,7 +110,7 @@ pub(crate) fn read_each(
 /// The files that a command reads.
 #[derive(Default)]
 pub(crate) struct Files {
-    /// The scene files, in the order of the paths, and those of a folder in the order of their names.
+    /// The scene files in the order of the given paths. The files of a folder are sorted by name.
     pub(crate) scenes: Vec<PathBuf>,
     /// The `.json` files in folders that are no scenes, because they have no key `drystone`.
     foreign: Vec<PathBuf>,

@@ -18,6 +18,7 @@ use crate::mechanics::analysis::{Analysis, FrameAnalysis, Options, Verdict};
 use crate::mechanics::certificate::{Certificate, Checked};
 use crate::mechanics::solve::DeadlineGuard;
 use crate::pictures::output::file::Existing;
+use crate::text::power_of_ten;
 
 /// Check a certificate of check --certificate in exact arithmetic
 ///
@@ -116,7 +117,7 @@ fn page(certificate: &Certificate, checked: &Checked) -> Page {
     if certificate.listed {
         page.line("The scene gives the contacts; their positions are not checked against the outlines.");
     } else {
-        page.line(&format!("The farthest contact point lies {:.1e} m from an outline.", checked.farthest));
+        page.line(&format!("The farthest contact point lies {} m from an outline.", power_of_ten(checked.farthest, 1)));
     }
     page.end();
     page

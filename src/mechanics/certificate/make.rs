@@ -61,7 +61,8 @@ impl Certificate {
         certificate
     }
 
-    /// Proves a frame that stands in all conditions but the one that governs, and notes what a proof misses.
+    /// If a frame stands, proves its verdict in every condition except the governing one, which the entry of the frame
+    /// proves. Adds a notice to the frame if the proof in some condition is not exact.
     fn conditions_of(&self, analysis: &mut Analysis, number: usize) -> Vec<LimitForm> {
         let given = analysis.given().clone();
         let found = analysis.frames[number].clone();

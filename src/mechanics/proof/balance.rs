@@ -192,13 +192,14 @@ pub(super) fn worst_imbalance(assembly: &Assembly, forces: &Forces) -> (f64, f64
     (imbalance, share)
 }
 
-/// A chain begins at a joint that carries at most this share of the greatest normal force,
+/// A joint is weak if its normal force is at most this share of the greatest normal force. A chain begins at a weak joint.
 const WEAK: f64 = 1e-4;
-/// and leads to one that carries at least this share of it,
+/// A joint is strong if its normal force is at least this share of the greatest normal force. A chain ends at a strong
+/// joint.
 const STRONG: f64 = 1e-3;
-/// over at least this many joints.
+/// A chain has at least this many joints after the first.
 const CHAIN: usize = 3;
-/// Each of them carries a multiple within this range of the force of the one before.
+/// From each joint of a chain to the next one, the normal force grows by a factor in this range.
 const GROWTH: RangeInclusive<f64> = 1.2..=1e3;
 
 /// Returns the largest residual of a body at the end of a chain, relative to the force that the chain passes to it; 0 if

@@ -67,7 +67,7 @@ entry! {
         kernel: Option<f64> [range(min = 0.0, max = 1.0), extend("default" = 0.0)],
         /// Density in kg/m³, at least 0, of each block for which neither the block nor its material gives one; also a
         /// text with another unit, such as `"150 lb/ft3"`. Default 1.
-        density: Option<f64> [range(min = 0.0), extend("default" = 1.0, "type" = ["number", "string"])],
+        density: Option<f64> [range(min = 0.0), extend("default" = 1.0, "type" = ["number", "string", "null"])],
         /// Thickness of all blocks perpendicular to the plane, in the length unit of the scene, at least 0. Default 1.
         thickness: Option<f64> [range(min = 0.0), extend("default" = 1.0)],
         /// Materials of blocks and of the ground, by name.
@@ -265,8 +265,8 @@ impl Read for Version {
 entry! {
     /// A material of blocks or of the ground.
     pub struct MaterialEntry {
-        /// Density in kg/m³, at least 0, of blocks of this material that give none.
-        density: Option<f64> [range(min = 0.0), extend("type" = ["number", "string"])],
+        /// Density in kg/m³, at least 0, of blocks of this material that give none; also a text with another unit.
+        density: Option<f64> [range(min = 0.0), extend("type" = ["number", "string", "null"])],
         /// Friction coefficient, at least 0, of bodies of this material that give none.
         friction: Option<f64> [range(min = 0.0)],
         /// Fill colour, "#rrggbb" or "#rgb", of bodies of this material that give none.

@@ -35,7 +35,7 @@ struct Edge {
     /// The nodes of both ends; the curve begins and ends exactly at their places.
     ends: [usize; 2],
     curve: Subpath,
-    /// Points along the curve, with both ends.
+    /// Points along the curve, including both of its ends.
     points: Vec<Point>,
     /// The lines and outlines of which this is a piece.
     owners: BTreeSet<usize>,

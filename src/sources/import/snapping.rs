@@ -21,7 +21,7 @@ impl Outlines {
         let rings: Vec<Rings> = self.bodies.iter().map(rings_of).collect();
         let (gaps, fixed) =
             (vec![gap; rings.len()], self.bodies.iter().map(|b| b.circle.is_some()).collect::<Vec<_>>());
-        // The ground stays, and blocks meet half-way.
+        // Corners of the ground stay in place. Where corners of blocks are joined, they move to the mean of their positions.
         let moved_from = self.bodies.iter().position(|body| body.kind == Role::Block).unwrap_or(0);
         let gaps = snap::Gaps { moved_from, ..snap::Gaps::new(&gaps) };
         let outcome = snap::snapped(&rings, gaps, &fixed, 0.5 * self.tolerance() / gap);

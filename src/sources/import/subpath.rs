@@ -16,7 +16,7 @@ const SAME_CIRCLE: f64 = 1e-6;
 const MIN_BULGE: f64 = 1e-9;
 /// A curve becomes at least two chords if the area between it and its chord is more than this share of the square of the
 /// chord.
-const SAME_AREA: f64 = 1e-5;
+const NEGLIGIBLE_AREA: f64 = 1e-5;
 /// Chords are within this share of the tolerance before their corners are moved: they move by up to 4/3 of the distance.
 const BALANCED_SHARE: f64 = 0.75;
 /// The largest number of chords of one curve.
@@ -283,7 +283,7 @@ impl Segment {
 
     fn balanced_chords(&self, from: Point, tolerance: f64) -> f64 {
         let chord = self.end() - from;
-        let least = if self.area(from).abs() > SAME_AREA * chord.norm_squared() { 2.0 } else { 1.0 };
+        let least = if self.area(from).abs() > NEGLIGIBLE_AREA * chord.norm_squared() { 2.0 } else { 1.0 };
         self.chords(from, BALANCED_SHARE * tolerance).max(least)
     }
 

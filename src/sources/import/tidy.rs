@@ -14,7 +14,7 @@ const COINCIDENCE_TOL: f64 = 1e-6;
 /// An outline is as large as the page if its corners are this close to those of the page, as a share of its diagonal.
 const PAGE_TOL: f64 = 0.005;
 /// A sheet has at most this many borders.
-const MAX_FRAMES: usize = 4;
+const MAX_BORDERS: usize = 4;
 /// An outline of four or five corners is an upright rectangle if it fills this share of its box.
 const RECTANGLE_SHARE: f64 = 0.999;
 
@@ -99,9 +99,9 @@ pub(super) fn leave_fills_out(draft: &mut Draft) {
 }
 
 /// Leaves out the frames: rectangles without a role that are as large as the page, or around all else. At
-/// most [`MAX_FRAMES`] are left out. With `pages_only`, a rectangle around all else stays, because lines may cut it.
+/// most [`MAX_BORDERS`] are left out. With `pages_only`, a rectangle around all else stays, because lines may cut it.
 pub(super) fn leave_frames_out(draft: &mut Draft, pages_only: bool) {
-    for _ in 0..MAX_FRAMES {
+    for _ in 0..MAX_BORDERS {
         let boxes: Vec<Option<Bounds>> = draft.parts.iter().map(around).collect();
         let is_block = |i: &usize| draft.parts[*i].kind == Role::Block;
         let blocks: Vec<usize> = (0..boxes.len()).filter(is_block).collect();

@@ -335,8 +335,8 @@ impl<'t> Reader<'t> {
 /// Returns the two arcs of the circle through three points; one circle, if the first point is also the last.
 fn arcs(from: Point, middle: Point, to: Point) -> [Segment; 2] {
     let chord = to - from;
-    // The angle of an arc is twice the angle that its chord makes with the whole chord at the other end (Euclid III.20),
-    // and a bulge is the tangent of a quarter of it.
+    // The angle of an arc is twice the angle that its chord makes with the whole chord at the other end (Euclid III.20).
+    // The bulge of an arc is the tangent of a quarter of its angle.
     let bulge = |a: Vector, b: Vector| libm::tan(libm::atan2(cross(a, b), a.dot(&b)) / 2.0);
     let [first, second] = if from == to { [1.0; 2] } else { [bulge(chord, to - middle), bulge(middle - from, chord)] };
     [Segment::bulged(from, middle, first), Segment::bulged(middle, to, second)]

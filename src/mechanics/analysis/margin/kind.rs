@@ -39,8 +39,8 @@ pub enum MarginKind {
 /// Returns how a component changes with a parameter, from its change for a value of the parameter.
 type PathOf = fn(&Trial, fn(f64) -> Setting) -> Path<'static>;
 
-/// Everything that distinguishes a kind of margin from the others. Of two texts, the first is for the lower end of the
-/// interval, the second for the upper end.
+/// The names, units and texts of a kind of margin. Where there are two texts, the first is for the lower end of the
+/// interval, and the second for the upper end.
 pub(crate) struct About {
     /// The name in results, and with hyphens.
     pub words: [&'static str; 2],

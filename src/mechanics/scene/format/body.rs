@@ -94,7 +94,7 @@ entry! {
         /// Mass of the block in kg, at least 0. A `mass` takes precedence over every density.
         mass: Option<f64> [range(min = 0.0)],
         /// Density of the block in kg/m³, at least 0. Default: that of its material, else that of the scene.
-        density: Option<f64> [range(min = 0.0), extend("type" = ["number", "string"])],
+        density: Option<f64> [range(min = 0.0), extend("type" = ["number", "string", "null"])],
         /// Friction coefficient of the body, at least 0. Default: that of its material, else that of the scene.
         friction: Option<f64> [range(min = 0.0)],
         /// When the placement tolerance is computed, the errors of this block are multiplied by this coefficient, at least

@@ -186,8 +186,8 @@ entry! {
     pub struct VehicleEntry {
         /// The axles, the first in front.
         axles: required Vec<AxleEntry> [length(min = 1)],
-        /// Names of the blocks that the vehicle travels over, where they are seen from above: other blocks hide what is
-        /// below them. Default: all placed blocks.
+        /// Names of the blocks that the vehicle travels over. An axle stands only where no other block lies above.
+        /// Default: all placed blocks.
         over: Vec<String>,
         /// Distance between further positions that are analysed for a smoother influence line, in the length unit of the
         /// scene, at least 0; more than 1 000 in one direction are left out. Every position with an axle at an end of the

@@ -37,9 +37,8 @@ impl Placement {
     }
 }
 
-/// Returns all bodies that can be drawn, the ground first, and the scene if all its bodies are valid. The bodies may
-/// still overlap. The scene is not converted to SI units: its lengths are in the units of the file. Adds all problems to
-/// `found`.
+/// Returns all bodies that can be drawn, the ground first. Also returns the scene if all its bodies are valid; they may
+/// overlap, and its lengths are in the units of the file, not in SI units. Adds all problems to `found`.
 pub(in crate::mechanics::scene) fn sketch(
     file: &SceneFile,
     unread: UnreadParts,

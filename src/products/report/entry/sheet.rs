@@ -270,7 +270,9 @@ fn given(given: &Scene, scene: &Scene, found: &FrameAnalysis, number: usize) -> 
     // In a narrow column, a row of loads has three lines.
     let is_long = loads.lines.len() > MAX_NARROW_LOADS;
     let governing = found.cases.as_ref().and_then(|cases| given.cases().get(cases.governing));
-    let note = governing.map(|case| format!("Load case {}: {}.", line(&case.id), inputs::factors(given, case)));
+    let note = governing.map(|case| {
+        format!("The amounts are those in the load case {}: {}.", line(&case.id), inputs::factors(given, case))
+    });
     let loads = titled("Loads", loads, note);
     let below = if is_long {
         loads
