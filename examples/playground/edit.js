@@ -197,6 +197,8 @@ export function toggleHold(scene, id, frame, holds) {
 export function setFriction(scene, mu) {
   scene.friction = round(mu, 3);
   delete scene.friction_pairs;
+  delete scene.joint_sets;
+  delete scene.friction_factor_on;
   for (const material of Object.values(scene.materials ?? {})) if (material) delete material.friction;
   for (const body of [...list(scene.blocks), ...list(scene.ground)]) if (body) delete body.friction;
 }

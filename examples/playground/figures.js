@@ -10,7 +10,8 @@ const KINDS = [
   { kind: "thrust", label: "Thrust line", help: "Where the resultant crosses each joint." },
   { kind: "mechanism", label: "Mechanism", help: "How it falls: hinges and slips." },
   { kind: "capacity", label: "Capacity", help: "How large a force the selected block can carry in each direction." },
-  { kind: "margin", label: "Margin", help: "How it falls if it is tilted too far." },
+  { kind: "joints", label: "Joints", help: "Where forces act in the joints, and how much friction they use." },
+  { kind: "mechanism-tilt", label: "Tilt", help: "How it falls if it is tilted too far." },
 ];
 
 export class Figures {
@@ -34,7 +35,7 @@ export class Figures {
   /** @param {any[]} kinds names of the kinds that the library has */
   offer(kinds) {
     const known = new Set(kinds.map((kind) => (typeof kind === "string" ? kind : kind?.kind ?? kind?.name)));
-    this.buttons = KINDS.filter(({ kind }) => known.has(kind)).map(({ kind, label, help }) => {
+    this.buttons = KINDS.filter(({ kind }) => known.has(kind.split("-")[0])).map(({ kind, label, help }) => {
       const button = html("button", { type: "button", role: "tab", id: `tab-${kind}`, "aria-controls": "figure-panel", title: help }, label);
       button.dataset.kind = kind;
       button.addEventListener("click", () => this.choose(kind));

@@ -14,18 +14,18 @@ pair, three = (number, number), (number, number, number)
 or_null = lambda shape: lambda value: value is None or not list(wrong(value, shape, ""))
 
 # A list has one shape for all its items, a tuple one for each. A key with a question mark may be missing.
-LOAD = {"force": pair, "at": pair, "torque": number, "fixed?": flag}
+LOAD = {"force": pair, "at?": pair, "torque": number, "fixed?": flag}
 STEPS, SPARSE, LIMITS = [([index], [index])], [(index, number)], (or_null(number),) * 3
 REACTIONS = [(index, SPARSE)]
 FORCES = or_null({"contacts": [three], "grips": [three], "order": STEPS, "reactions?": REACTIONS})
-MOTION = or_null([{"body": index, "at": pair, "velocity": pair, "spin": number}])
+MOTION = or_null([{"body": index, "at?": pair, "velocity": pair, "spin": number}])
 PROOF = {"frame": index, "verdict": word, "forces?": FORCES, "motion?": MOTION, "still?": STEPS}
 CHANGED = {"load_factor?": number, "kernel?": number, "force?": (index, LOAD)}
 ERRORS = {"size": number, "scales?": SPARSE, "pattern?": SPARSE}
 CHANGE = CHANGED | {"gravity?": pair, "friction?": number, "friction_factor?": number}
 CHANGE |= {"grip_limits?": [LIMITS], "errors?": ERRORS, "loads?": [(index, number, [LOAD])]}
-CONTACT = {"bodies": (index, index), "points": [pair], "normal?": pair, "friction": number}
-GRIP = {"robot": word, "body": index, "at": pair, "limits": LIMITS}
+CONTACT = {"bodies": (index, index), "points": [pair], "normal?": pair, "friction": number, "fixed?": flag}
+GRIP = {"robot": word, "body": index, "at?": pair, "limits": LIMITS}
 CIRCLE = {"centre": pair, "radius": number}
 BODY = {"id": word, "ground": flag, "outline": [pair], "weight": number}
 BODY |= {"circle?": CIRCLE, "holes?": [[pair]], "centre?": pair, "loads?": [LOAD]}
@@ -68,10 +68,20 @@ def read(path):
         raise ValueError(f"{places[0]} is missing, unknown or of another type")
     return file
 
+def mu(contact, frame):
+    """The friction coefficient of a contact in a changed frame."""
+    factor = 1 if contact.get("fixed") else frame.get("friction_factor", 1)
+    return frame.get("friction", contact["friction"]) * factor
+
 def with_loads(file, change):
     """The certificate with the weights and loads of bodies that a change gives them."""
     other = {k: {"weight": weight, "loads": loads} for k, weight, loads in change.get("loads", [])}
     return {**file, "bodies": [{**body, **other.get(k, {})} for k, body in enumerate(file["bodies"])]}
+
+def with_points(frame, bodies):
+    """The frame with the points of grips and motions: without a point, the one at which the weight of the body acts."""
+    given = lambda items: [{"at": bodies[item["body"]]["centre"], **item} for item in items or []]
+    return {**frame, "grips": given(frame.get("grips")), "motion": frame["motion"] and given(frame["motion"])}
 
 def run(check, paths):
     """Whether files are certificates of which everything is proved. A file that is no certificate proves nothing."""

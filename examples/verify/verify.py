@@ -6,7 +6,7 @@ import sys
 from fractions import Fraction
 from itertools import chain, combinations, product
 from errors import additions, inset, is_valid, pattern
-from shape import run, with_loads
+from shape import mu, run, with_loads, with_points
 from vectors import REST, apart2, cross, dot, left, plus, solve, sub, threes, wrench
 
 TAN_OF_ANGLE = Fraction(1, 100)  # the largest angle between a contact and the edges that it lies at
@@ -30,9 +30,9 @@ def load(body, index, frame):
     total = wrench([g * body["weight"] for g in frame["gravity"]], body["centre"])
     total[2] += pattern(body, index, frame)
     loads = [(item, 1 if item.get("fixed") else frame.get("load_factor", 1)) for item in body.get("loads", [])]
-    loaded, further = frame.get("force") or (None, None)
-    for item, factor in loads + [(further, 1)] * (loaded == index):
-        total = plus(plus(total, wrench(item["force"], item["at"]), factor), (0, 0, item["torque"]), factor)
+    loaded, *further = frame.get("force") or [None]
+    for item, by in loads + [(item, 1) for item in further if loaded == index]:
+        total = plus(plus(total, wrench(item["force"], item.get("at", body["centre"])), by), (0, 0, item["torque"]), by)
     return total
 
 def line(contact, frame):
@@ -69,7 +69,7 @@ def corrected(frame, parts, given, residual):
             change(k, amount)
     values = []  # what must not be negative at the contacts, and the components of the grips
     for c, (n1, n2, t) in zip(frame["contacts"], threes(amounts)):
-        most = frame.get("friction", c["friction"]) * frame.get("friction_factor", 1) * (n1 + n2)
+        most = mu(c, frame) * (n1 + n2)
         values += [n1, n2, most - t, most + t, -n2 if "normal" in c else 0]
     return values + amounts[3 * len(frame["contacts"]) :], [k for k, rest in residual.items() if any(rest)]
 
@@ -101,7 +101,7 @@ def falls(bodies, frame):
             motion[body] = plus(motion[body], change, 1)
     speeds = [speed(part) for part in parts]
     for k, (c, (n1, n2, t)) in enumerate(zip(frame["contacts"], threes(speeds))):
-        slack = min(n1, n2) - frame.get("friction", c["friction"]) * frame.get("friction_factor", 1) * abs(t)
+        slack = min(n1, n2) - mu(c, frame) * abs(t)
         if slack < 0:
             yield f"contact {k} can resist by {float(-slack):.1e}"
     grips = list(zip(limits_of(frame), speeds[3 * len(frame["contacts"]) :]))
@@ -188,7 +188,7 @@ def main(file):
         word, side, check, proof = checks.get(entry["verdict"], ("undecided", "at", None, None))
         change, just = entry.get("change", {}), "" if "loads" in entry.get("change", {}) else f"just {side} "
         frame = {**frames[entry["frame"]], "forces": None, "motion": None, "still": [], **change, **entry}
-        own = with_loads(file, change)
+        own, frame = with_loads(file, change), with_points(frame, file["bodies"])
         faults = form(own, frame) or ([] if file["listed"] else [*places(own, frame, farthest), *missing(own, frame)])
         faults = faults or (list(check(own["bodies"], frame)) if frame.get(proof) else ["no proof"])
         is_exact &= not faults

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import os
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -37,6 +38,7 @@ class Figure:
     @classmethod
     def of_analysis(cls, analysis: _drystone.Analysis, frame: int | None, options: Mapping[str, Any]) -> Figure:
         """Makes a figure of one frame of an analysis, or of all frames if ``frame`` is ``None``."""
+        warn_of_old_names(options, 4)
         return cls(analysis, frame, options)
 
     @classmethod
@@ -93,6 +95,13 @@ def request_json(options: Mapping[str, Any]) -> str:
     return json.dumps(given, default=_geometry.plain)
 
 
+def warn_of_old_names(options: Mapping[str, Any], level: int) -> None:
+    """Warns if an option has a name of the last version, and says the new one."""
+    note = _drystone.new_name(options.get("kind"), options.get("fill"))
+    if note is not None:
+        warnings.warn(note, FutureWarning, stacklevel=level)
+
+
 def animate(
     analysis: _drystone.Analysis,
     frame: int | None,
@@ -100,6 +109,7 @@ def animate(
     options: Mapping[str, Any],
 ) -> None:
     """Writes an animation of the frames to a ``.png`` or ``.gif`` file; of one frame if ``frame`` is not ``None``."""
+    warn_of_old_names(options, 4)
     ending = Path(path).suffix.lower()
     if ending not in (".png", ".gif"):
         raise DrystoneError(f"{os.fspath(path)}: an animation can be saved as .png or .gif")

@@ -38,6 +38,7 @@ class Scene:
         date: str | None = None,
         units: Mapping[str, str] | None = None,
         friction: float | None = None,
+        friction_factor_on: Sequence[str] | None = None,
         density: float | None = None,
         thickness: float | None = None,
         gravity: Point | None = None,
@@ -190,6 +191,22 @@ class Scene:
     def friction_pair(self, first: str, second: str, friction: float) -> Scene:
         """Sets the friction coefficient between the materials with the names ``first`` and ``second``."""
         return self._add("friction_pairs", {"between": [first, second], "friction": friction})
+
+    def joint_set(
+        self,
+        id: str,
+        *,
+        direction: str | None = None,
+        bodies: tuple[str, str] | None = None,
+        materials: tuple[str, str] | None = None,
+        friction: float | None = None,
+    ) -> Scene:
+        """Adds a set of joints, by their ``direction`` (``"bed"`` or ``"head"``), two ``bodies`` or two ``materials``.
+
+        ``friction`` is the coefficient of its joints. The keyword ``friction_factor_on`` of a scene lists the names of the sets
+        that the margin ``friction_factor`` multiplies.
+        """
+        return self._add("joint_sets", _without(locals(), "self"))
 
     def robot(
         self,

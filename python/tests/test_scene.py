@@ -38,7 +38,7 @@ def test_the_arguments_are_the_keys_of_the_scene_file(method, name):
 def test_every_key_of_a_scene_is_an_argument_or_a_method():
     arguments = set(inspect.signature(ds.Scene.__init__).parameters) - {"self"}
     added = {"ground", "blocks", "shapes", "materials", "friction_pairs", "robots", "loads", "steps", "contacts"}
-    added |= {"cases", "movements"}
+    added |= {"cases", "joint_sets", "movements"}
     assert arguments | added | {"drystone", "$schema"} == keys_of(None)
 
 

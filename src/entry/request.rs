@@ -10,7 +10,7 @@ use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKin
 use crate::mechanics::certificate::Certificate;
 use crate::mechanics::scene::{BlockId, Scene, SceneError, Setting};
 use crate::pictures::drawing::Theme;
-use crate::products::figure::{self, Kind};
+use crate::products::figure::{self, At, Fill, Kind, View};
 use crate::read::{Dialect, Given, requested};
 use crate::text::Word;
 
@@ -107,13 +107,13 @@ request! {
     #[derive(Clone, Debug)]
     pub(crate) struct FigureArgs(given) {
         /// What the figure shows
-        kind: Kind = given.word("kind").unwrap_or_default(),
-            arg(long, default_value = "forces", value_parser = crate::text::typed_word::<Kind>());
+        kind: View = given.word("kind").unwrap_or_default(),
+            arg(long, default_value = "forces", value_parser = crate::text::typed_word::<View>());
         /// The id of the block of a free-body diagram
         block: Option<String> = given.text("block"), arg(long, value_name = "ID");
         capacity: CapacityArgs = CapacityArgs::read(given), command(flatten);
-        /// The margin of --kind margin [default: tilt] or --kind sensitivity [default: load-factor if there are loads,
-        /// otherwise tilt]
+        /// The margin of --kind sensitivity [default: load-factor if there are loads, otherwise tilt]; with kernel,
+        /// --kind joints shows the forces of the largest kernel
         margin: Option<SensitivityMargin> = given.word("margin"),
             arg(long, value_parser = crate::text::typed_word::<SensitivityMargin>(), value_name = "MARGIN");
         /// Show only the neighbourhood of the block with this id
@@ -298,9 +298,31 @@ impl CheckArgs {
 }
 
 impl FigureArgs {
+    /// Returns the kind of figure.
+    pub(crate) fn kind(&self) -> Kind {
+        self.view().kind
+    }
+
+    /// Returns what the figure shows. What blocks could show as colours in the last version is a kind of its own.
+    fn view(&self) -> View {
+        let is_moved = matches!(self.options.fill, Fill::Stress | Fill::Friction);
+        if is_moved && self.kind.kind == Kind::Forces { Kind::Joints.into() } else { self.kind }
+    }
+
+    /// Returns what to write instead of names of the last version.
+    #[cfg(any(feature = "cli", feature = "python"))]
+    pub(crate) fn note(&self) -> Option<String> {
+        let is_moved = matches!(self.options.fill, Fill::Stress | Fill::Friction);
+        let fill = is_moved.then(|| {
+            let fill = self.options.fill.word();
+            format!("--fill {fill} is now --kind joints; the next version does not know the old name")
+        });
+        self.kind.note().or(fill)
+    }
+
     /// Refuses options that do not fit the kind of figure.
     pub(crate) fn check(&self) -> Result<(), String> {
-        let is_freebody = self.kind == Kind::Freebody;
+        let is_freebody = self.kind() == Kind::Freebody;
         if self.block.is_some() && !is_freebody {
             return Err("--block names the block of a free-body diagram; add --kind freebody".into());
         }
@@ -314,7 +336,7 @@ impl FigureArgs {
     /// the options also name this margin.
     pub(crate) fn add_to(&self, base: analysis::Options, scene: &Scene) -> Result<analysis::Options, String> {
         let mut options = self.capacity.add_to(base, scene)?;
-        if self.kind.needs_sensitivity() {
+        if self.kind().needs_sensitivity() {
             options.sensitivity = self.margin.map(|margin| margin.0);
         }
         Ok(options)
@@ -322,7 +344,9 @@ impl FigureArgs {
 
     /// Analyses a scene, and also computes the margins, the sensitivity or the capacity that the figure shows.
     pub(crate) fn analysed(&self, scene: &Scene, options: &analysis::Options, look: &figure::Options) -> Analysis {
-        self.kind.analysed(scene, options, look)
+        let mut options = *options;
+        options.removable |= self.view().needs_removable();
+        self.kind().analysed(scene, &options, look)
     }
 
     /// Returns an analysis with all results that the figure shows: the given one, or a new one of the same scene if it
@@ -330,8 +354,9 @@ impl FigureArgs {
     #[cfg(any(feature = "python", feature = "wasm"))]
     pub(crate) fn completed(&self, analysis: &Analysis) -> Result<Analysis, String> {
         let options = self.add_to(analysis::Options::default(), analysis.given())?;
-        Ok(if self.kind.lacks(analysis, &options) {
-            self.kind.analysed(analysis.given(), &options, &self.options)
+        let look = self.shown();
+        Ok(if self.kind().lacks(analysis, &options, &look) {
+            self.analysed(analysis.given(), &options, &look)
         } else {
             analysis.clone()
         })
@@ -339,20 +364,27 @@ impl FigureArgs {
 
     /// Returns the options of the figure of a scene, in a theme and on a page of this width in pixels.
     pub(crate) fn options(&self, theme: Theme, width: Option<f64>) -> Result<figure::Options, String> {
-        let toward = self.margin.map(|margin| margin.0).unwrap_or_default();
-        if self.kind.needs_margins() && !toward.changes_loads() {
-            return Err(
-                "--kind margin cannot show the margins friction, friction_factor and kernel; use --kind sensitivity"
-                    .into(),
-            );
+        if self.options.at.is_some() && self.kind() != Kind::Mechanism {
+            return Err("--at selects the motion of a figure; add --kind mechanism".into());
         }
-        Ok(figure::Options { toward, theme, width, ..self.options.clone() })
+        if self.kind() == Kind::Mechanism && self.shown().at == Some(At::Margin(MarginKind::Kernel)) {
+            return Err("no motion belongs to the margin kernel; use --kind joints or --kind sensitivity".into());
+        }
+        Ok(figure::Options { theme, width, ..self.shown() })
+    }
+
+    /// Returns the options with what the view and the margin ask for.
+    fn shown(&self) -> figure::Options {
+        let margin = self.margin.map(|margin| margin.0);
+        let central = margin == Some(MarginKind::Kernel);
+        let at = self.options.at.or(margin.map(At::Margin).filter(|_| self.kind() == Kind::Mechanism));
+        self.view().options(&figure::Options { at, central, ..self.options.clone() })
     }
 
     /// Returns the options with the blocks that the options `zoom` and `block` name.
     pub(crate) fn for_scene(&self, options: &figure::Options, scene: &Scene) -> Result<figure::Options, String> {
         let zoom = self.zoom.as_deref().map(|name| figure::named_block(scene, name)).transpose()?;
-        let shows_one = self.kind.shows_one_block();
+        let shows_one = self.kind().shows_one_block();
         if !shows_one {
             figure::check_panels(scene, "choose one with --frame")?;
         }
@@ -395,12 +427,12 @@ mod tests {
     #[test]
     fn a_json_request_has_the_defaults_and_the_values_of_the_command_line() {
         let empty = read_json(Some("{}"), FigureArgs::read).expect("defaults");
-        assert_eq!((empty.options, empty.kind), (figure::Options::default(), Kind::default()));
+        assert_eq!((empty.options, empty.kind), (figure::Options::default(), View::default()));
         let text = r#"{ "no_title": true, "width": null, "margin": "load_factor", "kind": "freebody" }"#;
         let wrong = read_json(Some(text), FigureArgs::read).expect_err("a figure has no key width of its own");
         assert!(wrong.starts_with("width: unknown key"), "{wrong}");
         let made = read_json(Some(&text.replace("\"width\": null, ", "")), FigureArgs::read).expect("a request");
-        assert!(!made.options.titles && made.options.captions && made.kind == Kind::Freebody);
+        assert!(!made.options.titles && made.options.captions && made.kind() == Kind::Freebody);
         assert_eq!(made.margin.map(|margin| margin.0), Some(MarginKind::LoadFactor));
     }
 

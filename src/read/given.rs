@@ -116,7 +116,8 @@ pub fn word<T: Word>(r: &mut Reader<'_>, node: &Node<'_>, at: &Trail<'_>) -> Opt
         _ => None,
     };
     found.or_else(|| {
-        let names: Vec<(&str, T)> = T::all().into_iter().map(|v| (v.alias().unwrap_or(v.word()), v)).collect();
+        let shown = T::all().into_iter().filter(|v| !v.is_hidden());
+        let names: Vec<(&str, T)> = shown.map(|v| (v.alias().unwrap_or(v.word()), v)).collect();
         r.choice(node, at, &names)
     })
 }

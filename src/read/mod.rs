@@ -31,7 +31,7 @@ pub mod syntax;
 mod toml;
 pub mod tree;
 
-pub use given::{Given, requested};
+pub use given::{Given, requested, word};
 pub use mistake::{Broken, Cause, Dialect, Expected, Kind, Mistake, Problem, Problems};
 pub use path::{Path, Segment, Trail};
 pub use reader::{Fields, Finding, Reader};

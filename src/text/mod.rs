@@ -311,6 +311,11 @@ pub trait Word: Copy + Send + Sync + 'static {
         None
     }
 
+    /// True if help and messages do not list the name.
+    fn is_hidden(self) -> bool {
+        false
+    }
+
     /// Returns the value with this name. An underscore counts as a hyphen, and capital letters count as small letters.
     fn from_word(word: &str) -> Option<Self> {
         let word = word.replace('_', "-").to_ascii_lowercase();
@@ -323,7 +328,7 @@ pub trait Word: Copy + Send + Sync + 'static {
 pub(crate) fn typed_word<T: Word>() -> impl clap::builder::TypedValueParser<Value = T> {
     use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
     let shown = |value: T| {
-        let shown = PossibleValue::new(value.word()).aliases(value.alias());
+        let shown = PossibleValue::new(value.word()).aliases(value.alias()).hide(value.is_hidden());
         if value.help().is_empty() { shown } else { shown.help(value.help()) }
     };
     let values = T::all().into_iter().map(shown);

@@ -73,7 +73,8 @@ fn a_strip_of_many_steps_is_not_much_higher_than_wide() {
 #[test]
 fn the_key_states_the_scale_of_missing_forces_and_what_is_drawn_at_the_ground() {
     let drawing = drawn("robotcorbel", Kind::Forces);
-    assert!(words(&drawing).contains("500 N missing"), "{}", words(&drawing));
+    // The missing forces have the scale of the joints, in which all of them are too short to see.
+    assert!(words(&drawing).contains("missing; stub: under 5 kN"), "{}", words(&drawing));
     assert!(words(&drawing).contains("one head at ground"), "{}", words(&drawing));
 }
 

@@ -1,7 +1,14 @@
 //! Answers of scenes with load cases or a vehicle hold in every condition: compared with analyses of each condition alone.
 
-use drystone::analysis::{Condition, FrameAnalysis, Interval, MarginKind, MarginKinds, Options, Verdict};
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+use drystone::analysis::{
+    CapacityRequest, Condition, FrameAnalysis, Interval, MarginKind, MarginKinds, MovementOutcome, Options, Verdict,
+};
+use drystone::geometry::Point;
 use drystone::result::{Layout, Timing, to_json};
+use drystone::scene::BlockId;
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
@@ -115,23 +122,28 @@ fn results_name_the_case_or_the_position_that_decides_each_answer() {
     assert_eq!((&wall["margins"]["load_factor"][1], &wall["margins"]["friction"][0]), (&people, &people));
     assert_eq!((&wall["margins"]["kernel"][1], &wall["margins"]["horizontal_load"][1]), (&people, &wind));
     assert_eq!((&wall["placement"], &wall["removable"][0]["case"]), (&json!([wind, wind]), &json!("earth alone")));
-    let bridge = json(BRIDGE);
+    let analysis =
+        Analysis::with(scene(&serde_json::from_str(BRIDGE).expect("JSON")), &Options::default().margins(true));
+    let bridge: Value =
+        serde_json::from_str(&to_json(&analysis, Timing::LeftOut, Layout::OneLine)).expect("JSON of the result");
     let position = &bridge["frames"][0]["vehicle"]["governing"];
     let bridge = own(bridge.clone());
-    for kind in ["friction", "tilt", "horizontal_load"] {
-        assert_eq!(&bridge["margins"][kind][0]["position"], position, "{kind}");
-    }
-    for kind in ["tilt", "horizontal_load", "kernel", "load_factor"] {
-        assert_eq!(&bridge["margins"][kind][1]["position"], position, "{kind}");
-    }
-    assert_eq!(&bridge["placement"][0]["position"], position);
-    // A beam of weight 6 from x = -1 to 2 on a floor from 0 to 1 falls under an axle at its left end.
-    let falls = json!({ "drystone": 1, "ground": [{ "polygon": [[0, -1], [1, -1], [1, 0], [0, 0]] }],
-        "blocks": [{ "polygon": [[-1, 0], [2, 0], [2, 1], [-1, 1]], "weight": 6 }],
+    assert_eq!(&bridge["margins"]["load_factor"][1]["position"], position);
+    // The largest kernel belongs to another position than the least factor.
+    let of = |kind: &str, end: usize| bridge["margins"][kind][end]["position"].as_u64();
+    assert_eq!((of("friction", 0), of("kernel", 1)), (position.as_u64(), Some(61)));
+    assert!(["tilt", "horizontal_load"].into_iter().all(|kind| of(kind, 0).is_some() && of(kind, 1).is_some()));
+    // A beam of weight 6 from x = -1 to 2 on a floor from 0 to 1 falls under an axle at its left end, unless a block of 20
+    // lies on its middle.
+    let ballast = json!({ "drystone": 1, "ground": [{ "polygon": [[0, -1], [1, -1], [1, 0], [0, 0]] }],
+        "blocks": [{ "polygon": [[-1, 0], [2, 0], [2, 1], [-1, 1]], "weight": 6 },
+            { "polygon": [[0, 1], [1, 1], [1, 2], [0, 2]], "weight": 20 }],
         "vehicle": { "axles": [{ "weight": 4 }] } });
-    let falls = json(&falls.to_string());
-    let governing = &falls["frames"][0]["governing_position"];
-    assert_eq!(&own(falls.clone())["removable"][0]["position"], governing);
+    let ballast = json(&ballast.to_string());
+    let row = &ballast["frames"][0]["conditions"]["removable"][1];
+    assert_eq!(ballast["frames"][0]["removable"][1]["stands"], false);
+    let position = row["position"].as_u64().expect("a position") as usize;
+    assert_eq!(ballast["frames"][0]["vehicle"]["positions"][position]["at"], -1.0);
 }
 
 /// A ladder of 100 N on a floor with friction `mu`, whose upper corner touches a wall.
@@ -185,29 +197,52 @@ fn a_corner_that_just_misses_an_edge_is_noted() {
 }
 
 #[test]
-fn margins_of_a_bridge_hold_with_its_vehicle_at_the_governing_position() {
+fn answers_of_a_bridge_hold_at_every_position_of_its_vehicle() {
     let file: Value = serde_json::from_str(BRIDGE).expect("JSON");
-    let analysis = Analysis::with(scene(&file), &asked());
+    let kinds = MarginKinds::new(&[MarginKind::Tilt, MarginKind::Kernel, MarginKind::Friction]);
+    let options = Options::default().margins(true).margin_kinds(kinds);
+    let block = scene(&file).block_named("A5").expect("a stone");
+    let asked = options.capacity(CapacityRequest::of_block(block));
+    let analysis = Analysis::with(scene(&file), &asked);
     let found = &analysis.frames[0];
     assert_eq!(found.verdict, Verdict::Stable);
     let line = found.vehicle.as_ref().expect("an influence line");
-    let governing = line.governing.expect("a position");
-    let mut loaded = file;
-    let axles = &line.positions[governing].axles;
-    loaded["loads"] = axles
-        .iter()
-        .map(|(axle, block, at)| {
-            let weight = loaded["vehicle"]["axles"][*axle]["weight"].as_f64().expect("a weight");
+    let at = |axles: &[(usize, BlockId, Point)]| {
+        let mut loaded = file.clone();
+        let loads = axles.iter().map(|(axle, block, at)| {
+            let weight = file["vehicle"]["axles"][*axle]["weight"].as_f64().expect("a weight");
             json!({ "block": analysis.scene.blocks()[block.0].id, "at": [at.x, at.y], "force": [0, -weight] })
-        })
-        .collect();
-    loaded.as_object_mut().expect("an object").remove("vehicle");
-    let there = frame(scene(&loaded), &asked());
-    for kind in [MarginKind::Tilt, MarginKind::Kernel, MarginKind::LoadFactor] {
-        let [whole, own] = [found, &there].map(|of| of.margins.as_ref().and_then(|of| of.most(kind)).expect("a limit"));
-        assert!((whole - own).abs() <= 1e-5 * own, "{kind:?}: {whole} {own}");
+        });
+        loaded["loads"] = loads.collect();
+        loaded.as_object_mut().expect("an object").remove("vehicle");
+        frame(scene(&loaded), &asked)
+    };
+    let each: Vec<FrameAnalysis> = line.positions.iter().map(|position| at(&position.axles)).collect();
+    let ends = |found: &FrameAnalysis| {
+        let margins = found.margins.as_ref().expect("asked");
+        [
+            margins.most(MarginKind::Tilt).expect("a tilt"),
+            -margins.least(MarginKind::Tilt).expect("a tilt"),
+            margins.most(MarginKind::Kernel).expect("a kernel"),
+            1.0 / margins.least(MarginKind::Friction).expect("a friction"),
+        ]
+    };
+    let whole = ends(found);
+    for (kind, whole) in whole.into_iter().enumerate() {
+        let least = each.iter().map(|own| ends(own)[kind]).fold(f64::INFINITY, f64::min);
+        assert!((whole - least).abs() <= 1e-5 * least, "{kind}: {whole} {least}");
     }
-    assert!(found.notices.iter().any(|notice| notice.contains("not at the other")));
+    let carried = found.capacity.as_ref().expect("asked");
+    for corner in &carried.vertices {
+        let inside = corner.force * 0.9999;
+        assert!(each.iter().all(|own| own.capacity.as_ref().is_some_and(|own| own.contains([inside.x, inside.y]))));
+    }
+    for edge in &carried.edges {
+        let [from, to] = edge.ends.map(|end| carried.vertices[end.expect("a polygon")].force);
+        let beyond = (from + to) * 0.5 + edge.normal * (1e-4 * edge.limit.abs());
+        let own = edge.condition.position.map(|position| &each[position]).expect("a position");
+        assert!(own.capacity.as_ref().is_some_and(|own| !own.contains([beyond.x, beyond.y])));
+    }
 }
 
 #[test]
@@ -234,4 +269,144 @@ fn the_part_of_the_ground_that_carries_nothing_is_drawn_where_it_faces_the_struc
     };
     // A wall a hand's breadth away, and one far away.
     assert_eq!([shown(2.1), shown(50.0)], [2, 1]);
+}
+
+/// A beam of 6 N on two posts under an axle of 4 N.
+fn beam() -> Value {
+    json!({ "drystone": 1, "friction": 0.6, "ground": [{ "polygon": [[-1, -2], [7, -2], [7, 0], [-1, 0]] }],
+        "blocks": [{ "id": "left", "polygon": [[0.5, 0], [1.5, 0], [1.5, 1], [0.5, 1]], "weight": 3 },
+            { "id": "right", "polygon": [[4.5, 0], [5.5, 0], [5.5, 1], [4.5, 1]], "weight": 3 },
+            { "id": "beam", "polygon": [[-0.5, 1], [6.5, 1], [6.5, 1.5], [-0.5, 1.5]], "weight": 6 }],
+        "vehicle": { "axles": [{ "weight": 4 }, { "weight": 2, "offset": 0.8 }] } })
+}
+
+#[test]
+fn placement_and_help_hold_at_every_position() {
+    let analysis = Analysis::with(scene(&beam()), &asked());
+    let found = &analysis.frames[0];
+    assert_eq!(found.verdict, Verdict::Stable, "{:?}", found.notices);
+    let line = found.vehicle.as_ref().expect("an influence line");
+    let at = |axles: &[(usize, BlockId, Point)]| {
+        let mut loaded = beam();
+        let loads = axles.iter().map(|(axle, block, at)| {
+            let weight = [4.0, 2.0][*axle];
+            json!({ "block": analysis.scene.blocks()[block.0].id, "at": [at.x, at.y], "force": [0, -weight] })
+        });
+        loaded["loads"] = loads.collect();
+        loaded.as_object_mut().expect("an object").remove("vehicle");
+        frame(scene(&loaded), &asked())
+    };
+    let each: Vec<FrameAnalysis> = line.positions.iter().map(|position| at(&position.axles)).collect();
+    let least = each.iter().filter_map(|own| Some(own.placement.as_ref()?.proved)).fold(f64::INFINITY, f64::min);
+    let whole = found.placement.as_ref().expect("asked").proved;
+    assert!((whole - least).abs() <= 1e-3 * least, "{whole} {least}");
+    // Without a post, a robot that holds the beam suffices without the vehicle, but not with the axles beyond it.
+    let rows = found.removable.as_ref().expect("asked");
+    let mut bare = beam();
+    bare.as_object_mut().expect("an object").remove("vehicle");
+    let bare = frame(scene(&bare), &asked()).removable.expect("asked");
+    assert_eq!((rows[1].rest, rows[1].help), (Verdict::Unstable, None));
+    assert!(bare[1].help.is_some(), "{bare:?}");
+    let help = |own: &FrameAnalysis| own.removable.as_ref().is_some_and(|rows| rows[1].help.is_some());
+    assert!(each.iter().any(help) && !each.iter().all(help));
+}
+
+#[test]
+fn each_case_has_its_capacity_movement_and_sensitivity() {
+    let mut file = crate::structure::arch(7, 0.5, 0.7);
+    file["ground"] = json!([{ "id": "left", "polygon": [[-2, -1], [0, -1], [0, 0], [-2, 0]] },
+        { "id": "right", "polygon": [[0, -1], [2, -1], [2, 0], [0, 0]] }]);
+    file["movements"] = json!([{ "ground": "left", "translation": [-0.01, 0] }]);
+    file["loads"] =
+        json!([{ "id": "snow", "block": "v3", "force": [0, -20] }, { "id": "wind", "block": "v2", "force": [15, 0] }]);
+    file["cases"] = json!([{ "id": "snow", "loads": { "snow": 1.5 } }, { "id": "wind", "loads": { "wind": 1 } }]);
+    let block = scene(&file).block_named("v3").expect("a stone");
+    let options =
+        Options::default().margins(true).sensitivity(MarginKind::Tilt).capacity(CapacityRequest::of_block(block));
+    let found = frame(scene(&file), &options);
+    let alone = |id: &str| {
+        let mut one = file.clone();
+        one["cases"] =
+            file["cases"].as_array().expect("cases").iter().filter(|case| case["id"] == id).cloned().collect();
+        frame(scene(&one), &options)
+    };
+    let each = ["snow", "wind"].map(alone);
+    let cases = found.cases.as_ref().expect("cases");
+    for (case, own) in cases.each.iter().zip(&each) {
+        let [MovementOutcome::Follows(here), MovementOutcome::Follows(there)] =
+            [&case.movements[0].outcome, &own.movements[0].outcome]
+        else {
+            panic!("{:?}", case.movements);
+        };
+        assert!((here.force - there.force).norm() <= 1e-6 * there.force.norm(), "{:?} {:?}", here.force, there.force);
+    }
+    let carried = found.capacity.as_ref().expect("asked");
+    for corner in &carried.vertices {
+        let inside = corner.force * 0.9999;
+        assert!(each.iter().all(|own| own.capacity.as_ref().is_some_and(|own| own.contains([inside.x, inside.y]))));
+    }
+    assert!(!carried.edges.is_empty());
+    for edge in &carried.edges {
+        let case = edge.condition.case.expect("a case");
+        let own = each[case].capacity.as_ref().expect("asked");
+        let same = |other: &drystone::analysis::CapacityEdge| {
+            (other.limit - edge.limit).abs() <= 1e-6 * edge.limit.abs().max(1.0)
+                && (other.normal - edge.normal).norm() <= 1e-6
+        };
+        assert!(own.edges.iter().any(same), "{edge:?}");
+    }
+    // The derivatives of an end are those of the case that decides it.
+    let conditions =
+        found.margins.as_ref().and_then(|margins| margins.margin(MarginKind::Tilt)).expect("asked").conditions;
+    let all = found.sensitivity.as_ref().expect("asked");
+    for (end, condition) in [(&all.low, conditions[0]), (&all.high, conditions[1])] {
+        let own = each[condition.case.expect("a case")].sensitivity.as_ref().expect("asked");
+        let own = [&own.low, &own.high].map(|end| end.as_ref().map(|end| end.value));
+        let value = end.as_ref().expect("an end").value;
+        assert!(own.iter().flatten().any(|own| (own - value).abs() <= 1e-9 * value.abs()), "{value} {own:?}");
+    }
+}
+
+#[test]
+fn joints_in_sets_have_their_friction_and_a_factor_acts_on_the_named_ones() {
+    let file = |on: Value| {
+        json!({ "drystone": 1, "friction": 0.6, "friction_factor_on": on,
+            "ground": [{ "id": "rock", "polygon": [[-1, -1], [5, -1], [5, 0], [-1, 0]] }],
+            "joint_sets": [{ "id": "foot", "bodies": ["a", "rock"], "friction": 0.4 },
+                { "id": "heads", "direction": "head", "friction": 0.1 }, { "id": "beds", "direction": "bed" }],
+            "blocks": [{ "id": "a", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]], "weight": 100 },
+                { "id": "b", "polygon": [[2, 0], [4, 0], [4, 1], [2, 1]], "weight": 100 },
+                { "id": "c", "polygon": [[1, 1], [3, 1], [3, 2], [1, 2]], "weight": 100 }],
+            "loads": [{ "block": "c", "force": [30, 0], "at": [1, 1.2] }] })
+    };
+    let factor = |on: Value| {
+        let found = frame(scene(&file(on)), &Options::default().margins(true));
+        let mut mu: Vec<f64> = found.contacts.iter().map(|contact| contact.interface.friction).collect();
+        mu.sort_by(f64::total_cmp);
+        assert_eq!(mu, [0.1, 0.4, 0.6, 0.6, 0.6]);
+        found.margins.expect("asked").least(MarginKind::FrictionFactor)
+    };
+    // The upper block slides if the bed below it has a friction of 30 / 100.
+    let beds = factor(json!(["beds"])).expect("a factor");
+    assert!((beds - 0.5).abs() < 1e-6, "{beds}");
+    // The head joint carries nothing that friction holds, so its friction may vanish.
+    assert_eq!(factor(json!(["heads"])), Some(0.0));
+    let mut program = Command::new(env!("CARGO_BIN_EXE_drystone"))
+        .args(["check", "--margins", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    program.stdin.take().expect("a pipe").write_all(file(json!(["beds"])).to_string().as_bytes()).expect("written");
+    let words = String::from_utf8(program.wait_with_output().expect("it ends").stdout).expect("text");
+    assert!(words.contains("stands with the friction of beds times at least 0.5"), "{words}");
+    for (key, value, code) in [
+        ("friction_factor_on", json!(["arch"]), "arch"),
+        ("joint_sets", json!([{ "id": "x", "bodies": ["a", "q"] }]), "q"),
+    ] {
+        let mut wrong = file(json!([]));
+        wrong[key] = value;
+        let problems = Scene::from_json(&wrong.to_string()).expect_err("an unknown name").to_string();
+        assert!(problems.contains(&format!("`{code}`")), "{problems}");
+    }
 }

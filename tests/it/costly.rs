@@ -64,7 +64,8 @@ fn a_figure_of_many_loads_names_the_largest() {
         (named, svg.contains("amounts only at the largest"))
     };
     let (named, is_said) = amounts(10);
-    assert!(named >= 7 && !is_said, "{named}");
+    // Stubs of ten loads at one place leave room for half of their amounts.
+    assert!(named >= 6 && !is_said, "{named}");
     // The 16 largest, or fewer if there is no room, and the largest contact force.
     let (named, is_said) = amounts(1000);
     assert!(is_said && (3..=18).contains(&named), "{named}");

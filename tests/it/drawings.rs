@@ -11,10 +11,15 @@ use drystone::{Analysis, Scene};
 
 /// Each file, its format, and what is expected: the number of blocks, the verdict, and words of its notes or of the
 /// count of what is left out.
-const FILES: [(&str, Format, usize, Verdict, &str); 22] = [
+const FILES: [(&str, Format, usize, Verdict, &str); 27] = [
     ("named-columns.csv", Format::Contacts, 2, Verdict::Stable, ""),
     ("arrays.csv", Format::Contacts, 2, Verdict::Stable, ""),
     ("decimal-commas.csv", Format::Contacts, 2, Verdict::Stable, ""),
+    ("units.csv", Format::Contacts, 1, Verdict::Stable, "converted to m and kg"),
+    ("boxes-german.csv", Format::Boxes, 2, Verdict::Stable, ""),
+    ("table.csv", Format::Wkt, 1, Verdict::Stable, ""),
+    ("lines.wkt", Format::Wkt, 1, Verdict::Stable, ""),
+    ("styled.svg", Format::Svg, 3, Verdict::Stable, ""),
     ("boxes.csv", Format::Boxes, 2, Verdict::Stable, ""),
     ("boxes.json", Format::Boxes, 2, Verdict::Stable, ""),
     ("collection.wkt", Format::Wkt, 3, Verdict::Stable, "1 point"),

@@ -1,4 +1,4 @@
-//! Kinds of figure: mechanism, thrust, kernel, utilisation. The drawings show the computed results.
+//! Kinds of figure: mechanism, thrust, joints. The drawings show the computed results.
 
 use drystone::analysis::Verdict;
 use drystone::drawing::{Drawing, Group, Item, Outline, Path, Theme};
@@ -9,7 +9,7 @@ use serde_json::json;
 
 use super::structure;
 
-const KINDS: [Kind; 5] = [Kind::Flow, Kind::Mechanism, Kind::Thrust, Kind::Kernel, Kind::Utilisation];
+const KINDS: [Kind; 4] = [Kind::Flow, Kind::Mechanism, Kind::Thrust, Kind::Joints];
 
 fn scene(path: &str) -> Scene {
     let full = format!("{}/assets/{path}", env!("CARGO_MANIFEST_DIR"));
@@ -114,15 +114,16 @@ fn the_safe_fraction_of_an_interface_is_one_minus_the_kernel() {
     ] {
         let scene = scene(name);
         let analysis = Analysis::new(&scene);
-        let drawing = draw(&analysis, Kind::Kernel);
+        let drawing = draw(&analysis, Kind::Joints);
         let interfaces = all(&drawing, "interface");
         assert!(interfaces.len() >= 2, "{name}");
-        let is_safe = |path: &Path| path.stroke.as_ref().is_some_and(|own| own.colour == Theme::thesis().safe);
-        // Where no forces balance the structure, nothing is safe.
-        let interfaces = interfaces.into_iter().filter(|interface| paths(interface).any(is_safe));
-        let interfaces: Vec<_> = interfaces.collect();
+        // Where no forces balance the structure, nothing is safe, and no joint has the colour of its friction.
+        let is_rim = |path: &Path| path.stroke.as_ref().is_some_and(|own| own.colour == Theme::thesis().ink);
+        let interfaces: Vec<_> = interfaces.into_iter().filter(|interface| paths(interface).any(is_rim)).collect();
         let standing = analysis.frames.iter().filter(|frame| frame.verdict == Verdict::Stable);
-        assert_eq!(interfaces.len(), standing.map(|frame| frame.contacts.len()).sum::<usize>(), "{name}");
+        let pressed =
+            standing.flat_map(|frame| &frame.contacts).filter(|c| c.normal_forces.iter().sum::<f64>() > 1e-6).count();
+        assert_eq!(interfaces.len(), pressed, "{name}");
         for interface in interfaces {
             let (mut safe, mut rest) = (0.0, 0.0);
             for path in paths(interface) {
@@ -130,10 +131,11 @@ fn the_safe_fraction_of_an_interface_is_one_minus_the_kernel() {
                 let points: Vec<_> = path.outline.points().collect();
                 let length: f64 =
                     points.chunks(2).map(|ends| libm::hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y)).sum();
-                if stroke.colour == Theme::thesis().safe {
-                    safe += length;
-                } else if !stroke.dash.is_empty() {
+                if !stroke.dash.is_empty() {
                     rest += length;
+                } else if stroke.colour == Theme::thesis().ink {
+                    // The bar across a joint that uses all its friction comes last.
+                    safe = if safe > 0.0 { safe } else { length };
                 }
             }
             let share = safe / (safe + rest);
@@ -148,9 +150,9 @@ fn with_a_kernel_of_one_the_safe_part_is_a_point() {
         "ground": [{ "polygon": structure::rectangle(-5.0, -1.0, 10.0, 1.0) }],
         "blocks": [structure::block("a", structure::rectangle(0.0, 0.0, 2.0, 1.0), 6.0)] });
     let scene = structure::scene(&file);
-    let svg = svg::write(&draw(&Analysis::new(&scene), Kind::Kernel));
+    let svg = svg::write(&draw(&Analysis::new(&scene), Kind::Joints));
     assert!(svg.contains("every safe part is a point"), "{svg}");
-    assert!(svg.contains("Between a and the ground: 0 m of 2 m safe"), "{svg}");
+    assert!(svg.contains("; 0 m of 2 m safe"), "{svg}");
 }
 
 #[test]
@@ -159,9 +161,10 @@ fn interfaces_that_use_all_friction_are_marked_and_no_others() {
     for name in ["thesis/figure-8-left.json", "thesis/figure-3b.json", "study/slope-exact.json"] {
         let scene = scene(name);
         let analysis = Analysis::new(&scene);
-        let drawing = draw(&analysis, Kind::Utilisation);
+        let drawing = draw(&analysis, Kind::Joints);
         // An interface that uses all its friction has three paths: a rim, a line, and a bar across the line.
-        let bars = all(&drawing, "interface").into_iter().filter(|group| paths(group).count() == 3);
+        let solid = |path: &&Path| path.stroke.as_ref().is_some_and(|stroke| stroke.dash.is_empty());
+        let bars = all(&drawing, "interface").into_iter().filter(|group| paths(group).filter(solid).count() == 3);
         let titles: Vec<&str> = bars.map(|group| group.title.as_str()).collect();
         let used = analysis.frames[0].contacts.iter().filter(|c| c.friction_used >= 1.0 - 1e-6).count();
         assert_eq!(titles.len(), used, "{name}: {titles:?}");
@@ -306,12 +309,20 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
         assert!((amount / length - scale).abs() < 0.01 * scale, "{}: {length} pixels", ray.title);
     }
     // The weights and loads form a polyline from the tip of the first ray to the tip of the last ray.
-    let loads = all(&drawing, "load-line");
-    let (first, last) = (line(loads[0])[0], line(loads[loads.len() - 1])[1]);
+    let sides = all(&drawing, "side");
+    let ends = |side: &Group| {
+        let points: Vec<_> = paths(side).flat_map(|path| path.outline.points()).collect();
+        [((points[0].x + points[6].x) / 2.0, (points[0].y + points[6].y) / 2.0), (points[3].x, points[3].y)]
+    };
+    // The two reactions come last. They close the polygon in the pole.
+    let applied = &sides[..sides.len() - 2];
+    let (first, last) = (ends(applied[0])[0], ends(applied[applied.len() - 1])[1]);
     for (end, ray) in [(first, rays[0]), (last, rays[rays.len() - 1])] {
         let tip = line(ray)[1];
         assert!(libm::hypot(tip.0 - end.0, tip.1 - end.1) < 0.1, "{tip:?} {end:?}");
     }
+    let (pole, met) = (line(rays[0])[0], ends(sides[sides.len() - 1])[0]);
+    assert!(libm::hypot(pole.0 - met.0, pole.1 - met.1) < 0.1, "{pole:?} {met:?}");
     for width in [397.0, 823.0] {
         let drawing = figure::draw(&analysis, Kind::Thrust, &options.clone().width(width));
         for group in all(&drawing, "labels") {
@@ -323,9 +334,10 @@ fn a_ray_of_the_force_polygon_is_the_force_in_its_joint() {
             }
         }
     }
+    // Without a thrust, the polygon has no pole, and is closed too.
     let slide = self::scene("study/stack-harmonic-stands.json");
     let drawing = figure::draw(&Analysis::new(&slide), Kind::Thrust, &options);
-    assert!(svg::write(&drawing).contains("no force polygon"));
+    assert!(svg::write(&drawing).contains("the force polygon is closed") && all(&drawing, "ray").is_empty());
 }
 
 /// Every kind of figure draws the loads, with their amounts.

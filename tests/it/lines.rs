@@ -274,7 +274,7 @@ fn the_arrows_of_a_force_polygon_join_tip_to_tail_and_close_if_the_structure_sta
     let (mut closed, mut joined) = (0, 0);
     for (name, scene) in gallery().into_iter().chain(contributed()) {
         let analysis = Analysis::new(&scene);
-        let drawing = figure::draw(&analysis, Kind::Polygon, &Options::default());
+        let drawing = figure::draw(&analysis, Kind::Thrust, &Options::default().with_polygon(true));
         for (found, frame) in analysis.frames.iter().zip(all(&drawing.items, "frame")) {
             let ends = |group: &&Group| {
                 let p: Vec<PagePoint> = outline(group).points().collect();

@@ -192,14 +192,15 @@ fn the_figure_of_a_margin_shows_the_structure_and_its_fall() {
     let arm = corner - scene.blocks()[0].centroid;
     let velocity = motion.velocity + Vector::new(-arm.y, arm.x) * motion.spin;
     assert!(velocity.norm() < 1e-5, "{velocity}");
-    let drawing = figure::draw(&analysis, Kind::Margin, &Options::default());
+    let options = Options::default().at(figure::At::Margin(drystone::analysis::MarginKind::Tilt));
+    let drawing = figure::draw(&analysis, Kind::Mechanism, &options);
     // It would topple to either side as soon; the panel shows one collapse.
     assert_eq!(all(&drawing.items, "ghosts").len(), 1);
     assert_eq!(all(&drawing.items, "gravity").len(), 1);
     let svg = drystone::output::svg::write(&drawing);
     assert!(svg.contains("stands from 14° left to 14° right"), "{svg}");
     // Without margins, the figure states that they were not computed.
-    let plain = figure::draw(&Analysis::new(&scene), Kind::Margin, &Options::default());
+    let plain = figure::draw(&Analysis::new(&scene), Kind::Mechanism, &options);
     assert!(drystone::output::svg::write(&plain).contains("its margins were not computed"));
 }
 

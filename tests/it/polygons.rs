@@ -38,8 +38,9 @@ fn words_and_dashes(drawing: &Drawing) -> (String, bool) {
 
 #[test]
 fn the_force_polygon_of_a_falling_structure_closes_only_with_missing_forces() {
-    let drawn =
-        |scene: &Scene| words_and_dashes(&figure::draw(&Analysis::new(scene), Kind::Polygon, &Options::default()));
+    let drawn = |scene: &Scene| {
+        words_and_dashes(&figure::draw(&Analysis::new(scene), Kind::Thrust, &Options::default().with_polygon(true)))
+    };
     let (stands, dashed) = drawn(&block(1.0, 2.0));
     assert!(stands.contains("the force polygon is closed") && !dashed, "{stands}");
     // Three quarters of the block overhang, so the ground would have to pull.
@@ -65,8 +66,8 @@ fn a_margin_that_ends_at_0_names_the_side_to_which_the_structure_falls() {
     for (toward, expected) in
         [(MarginKind::Tilt, "stands from 30.9° left to 0°"), (MarginKind::HorizontalLoad, "stands from 0.6 left to 0")]
     {
-        let options = Options::default().toward(toward);
-        let drawing = figure::draw(&analysis, Kind::Margin, &options);
+        let options = Options::default().at(drystone::figure::At::Margin(toward));
+        let drawing = figure::draw(&analysis, Kind::Mechanism, &options);
         let (words, _) = words_and_dashes(&drawing);
         let words = words.replace('\u{a0}', " ");
         assert!(words.contains(expected), "{words}");
@@ -80,7 +81,11 @@ fn a_margin_with_two_ends_shows_one_collapse() {
     assert_eq!(ends.len(), 2);
     assert!(ends[0].0.abs() <= ends[1].0.abs() && ends[0].0 * ends[1].0 < 0.0);
     assert_eq!(analysis.edge(0, MarginKind::Tilt), ends.first().cloned());
-    let drawing = figure::draw(&analysis, Kind::Margin, &Options::default());
+    let drawing = figure::draw(
+        &analysis,
+        Kind::Mechanism,
+        &Options::default().at(drystone::figure::At::Margin(MarginKind::Tilt)),
+    );
     let ghosts = classes(&drawing.items, &["ghosts"]);
     assert_eq!(ghosts.len(), 1);
     assert!(!classes(&drawing.items, &["hinge", "slip"]).is_empty(), "where it opens or slides");
@@ -89,10 +94,10 @@ fn a_margin_with_two_ends_shows_one_collapse() {
 #[test]
 fn a_margin_of_loads_states_the_loads_at_which_the_verdict_changes() {
     let analysis_options = AnalysisOptions::default().margins(true);
-    let options = Options::default().toward(MarginKind::LoadFactor);
+    let options = Options::default().at(drystone::figure::At::Margin(MarginKind::LoadFactor));
     let pushed = block(1.0, 2.0);
     let analysis = Analysis::with(&pushed, &analysis_options);
-    let drawing = figure::draw(&analysis, Kind::Margin, &options);
+    let drawing = figure::draw(&analysis, Kind::Mechanism, &options);
     let (words, _) = words_and_dashes(&drawing);
     // The block slides at 3 N, half of its weight.
     assert!(words.contains("stands with its loads times at most 1.5"), "{words}");
@@ -100,16 +105,16 @@ fn a_margin_of_loads_states_the_loads_at_which_the_verdict_changes() {
     assert_eq!(Analysis::new(block(1.0, 3.01)).verdict(), Verdict::Unstable);
     assert_eq!(classes(&drawing.items, &["ghosts"]).len(), 1);
     assert_eq!(classes(&drawing.items, &["load"]).len(), 1, "the load is shown");
-    // A structure that falls with its loads is drawn without its motion. The text states the loads with which it
-    // would stand: up to 3 of the 4 N.
+    // A structure that falls with its loads is drawn as it falls. The text states the loads with which it would stand: up
+    // to 3 of the 4 N.
     let falls = block(1.0, 4.0);
     let analysis = Analysis::with(&falls, &analysis_options);
-    let drawing = figure::draw(&analysis, Kind::Margin, &options);
+    let drawing = figure::draw(&analysis, Kind::Mechanism, &options);
     let (words, _) = words_and_dashes(&drawing);
     let would_stand = "stands with its loads times at most 0.75";
     assert!(words.contains(would_stand), "{words}");
-    assert!(classes(&drawing.items, &["ghosts"]).is_empty());
-    assert!(!words.contains("how it begins to fall"), "{words}");
+    assert_eq!(classes(&drawing.items, &["displaced"]).len(), 1);
+    assert!(!words.contains("would begin to fall"), "{words}");
 }
 
 #[test]

@@ -69,12 +69,17 @@ fn friction_is_that_of_the_pair_or_else_the_smaller_of_both_bodies() {
             { "id": "d", "polygon": [[6, 0], [7, 0], [7, 1]], "material": "granite" } ] }"##,
     );
     let (ground, block) = (BodyId::Ground(0), |i| BodyId::Block(BlockId(i)));
-    assert_eq!(scene.friction_between(block(0), ground), 0.3);
-    assert_eq!(scene.friction_between(ground, block(1)), 0.3, "the pair has precedence over the coefficient of a body");
-    assert_eq!(scene.friction_between(block(2), ground), 0.02);
-    assert_eq!(scene.friction_between(block(3), ground), 0.1);
-    assert_eq!(scene.friction_between(block(0), block(1)), 0.5);
-    assert_eq!(scene.friction_between(block(1), block(3)), 0.8);
+    let up = drystone::geometry::Vector::new(0.0, 1.0);
+    assert_eq!(scene.friction_at([block(0), ground], up), 0.3);
+    assert_eq!(
+        scene.friction_at([ground, block(1)], up),
+        0.3,
+        "the pair has precedence over the coefficient of a body"
+    );
+    assert_eq!(scene.friction_at([block(2), ground], up), 0.02);
+    assert_eq!(scene.friction_at([block(3), ground], up), 0.1);
+    assert_eq!(scene.friction_at([block(0), block(1)], up), 0.5);
+    assert_eq!(scene.friction_at([block(1), block(3)], up), 0.8);
     assert_eq!(scene.blocks()[0].body.fill, Some(Rgb([0x88, 0x66, 0x33])));
     assert_eq!(scene.blocks()[1].body.fill, Some(Rgb([0x8b, 0x6b, 0x3d])));
     assert_eq!(scene.name(ground), "ground");

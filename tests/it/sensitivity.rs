@@ -230,13 +230,13 @@ pub fn compared(file: &Value, kind: MarginKind, is_high: bool, every: usize) -> 
         let step = 1e-3 * weight.max(1e-3);
         change(step, &apply, *slope, &format!("weight {number}"), size / weight.max(1e-3), &mut tally);
     }
-    for (k, slopes) in &found.loads {
-        let at = scene(file).loads()[*k].at;
+    for load in &found.loads {
+        let (k, at, slopes) = (load.entry, load.at, load.slopes);
         for (axis, slope) in slopes.iter().enumerate() {
             let apply = |file: &mut Value, by: f64| {
                 let mut at = [at.x, at.y];
                 at[axis] += by;
-                file["loads"][*k]["at"] = json!(at);
+                file["loads"][k]["at"] = json!(at);
             };
             change(2e-4, &apply, *slope, &format!("load {k}, axis {axis}"), size, &mut tally);
         }

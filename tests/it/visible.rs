@@ -196,8 +196,8 @@ fn used_friction_is_stated_for_the_forces_shown() {
     let full = r#"{ "drystone": 1, "friction": 0.5, "ground": [{ "polygon": [[0,-1],[9,-1],[9,0],[0,0]] }],
         "blocks": [{ "id": "a", "polygon": [[1,0],[5,0],[5,2],[1,2]], "weight": 6 }],
         "loads": [{ "block": "a", "force": [3, 0], "at": [1, 0.2] }] }"#;
-    let words = words(&drawn(full, Kind::Utilisation));
-    assert!(words.contains("all of it in the forces shown"), "{words}");
+    let words = words(&drawn(full, Kind::Joints));
+    assert!(words.contains("all of it") && words.contains("100\u{a0}%"), "{words}");
 }
 
 #[test]

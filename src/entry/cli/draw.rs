@@ -37,7 +37,7 @@ impl DrawArgs {
     pub(crate) fn check(&self, format: Format) -> Result<(), CliError> {
         self.picture.check(format)?;
         self.figure.check()?;
-        if self.animate.is_some() && (format.animate().is_none() || self.figure.kind.shows_one_block()) {
+        if self.animate.is_some() && (format.animate().is_none() || self.figure.kind().shows_one_block()) {
             return Err(
                 "--animate makes a GIF or PNG of the frames of a figure; write a .gif or .png, of any kind but freebody"
                     .into(),
@@ -63,7 +63,7 @@ impl DrawArgs {
         format: Format,
         fonts: &Fonts,
     ) -> Result<(Vec<u8>, bool), CliError> {
-        let kind = self.figure.kind;
+        let kind = self.figure.kind();
         let steps = if kind.shows_one_block() { 1 } else { analysis.frames.len() };
         let split = |error| or_split(error, steps);
         if let Some(seconds) = self.animate {

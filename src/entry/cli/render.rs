@@ -22,7 +22,7 @@ use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::cli::watch;
 use crate::entry::value::FrameChoice;
-use crate::mechanics::analysis::{self, Analysis, Verdict};
+use crate::mechanics::analysis::{self, Analysis, MarginKind, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::pictures::output::fonts::Fonts;
 use crate::products::figure;
@@ -77,6 +77,9 @@ impl Render {
     pub(crate) fn run(&self, terminal: &Terminal) -> Ended {
         if self.force {
             terminal.note("--force does nothing: render always replaces its pictures, and never a file that it reads");
+        }
+        if let Some(note) = self.draw.figure.note() {
+            terminal.note(&note);
         }
         if !self.watch {
             return self.once(terminal);
@@ -162,12 +165,14 @@ impl Render {
     fn check_parts(&self, destination: &Destination) -> Result<(), CliError> {
         let is_stdout = matches!(destination, Destination::Stdout);
         let figure = &self.draw.figure;
-        let (shows_margin, varies) = (figure.kind.needs_margins(), figure.kind.needs_sensitivity());
-        let why = if figure.margin.is_some() && !shows_margin && !varies {
-            "--margin selects the margin of a figure; add --kind margin or --kind sensitivity"
-        } else if figure.capacity.capacity.is_some() && !figure.kind.needs_capacity() {
+        let (kind, margin) = (figure.kind(), figure.margin.map(|margin| margin.0));
+        let is_central = kind == figure::Kind::Joints && margin == Some(MarginKind::Kernel);
+        let shows_margin = kind == figure::Kind::Mechanism || kind.needs_sensitivity() || is_central;
+        let why = if margin.is_some() && !shows_margin {
+            "--margin selects the margin of a figure; add --kind mechanism or --kind sensitivity, or with kernel --kind joints"
+        } else if figure.capacity.capacity.is_some() && !kind.needs_capacity() {
             "--capacity selects the block of a capacity figure; add --kind capacity"
-        } else if self.writes_parts() && (figure.kind.shows_one_block() || is_stdout) {
+        } else if self.writes_parts() && (kind.shows_one_block() || is_stdout) {
             "--panels and --pages write the parts of a figure to files; give a file or folder, and any kind but freebody"
         } else {
             return Ok(());
@@ -191,8 +196,7 @@ impl Render {
         terminal: &Terminal,
     ) -> Vec<Result<Rendered, CliError>> {
         let progress = Progress::begin(2 * sources.len(), terminal.shows_progress());
-        let mut analysis_options = self.draw.figure.level.options();
-        analysis_options.margins = self.draw.figure.kind.needs_margins();
+        let analysis_options = self.draw.figure.level.options();
         match sources {
             [before, after] if joins => {
                 let work = || self.compared([before, after], &analysis_options, options, format, fonts);
@@ -255,11 +259,11 @@ impl Render {
         progress.step();
         let mut summary = summary(&analysis);
         let falls = analysis.frames.iter().any(|frame| frame.verdict == Verdict::Unstable);
-        if draw.animate.is_some() && figure.kind == figure::Kind::Mechanism && !falls {
+        if draw.animate.is_some() && figure.kind() == figure::Kind::Mechanism && options.at.is_none() && !falls {
             summary.push_str("; nothing moves");
         }
         let bytes = if self.writes_parts() {
-            let parts = draw.parts(&analysis, figure.kind, options, self.pages);
+            let parts = draw.parts(&analysis, figure.kind(), options, self.pages);
             let one = |part| draw.picture.bytes(part, format, fonts);
             parts.into_iter().map(one).collect::<Result<_, _>>()?
         } else {
@@ -285,7 +289,9 @@ impl Render {
 
     /// True if the command draws one figure that compares two scenes, instead of one figure for each scene.
     fn joins(&self, scenes: usize, destination: &Destination) -> bool {
-        self.draw.figure.kind == figure::Kind::Compare && scenes == 2 && !matches!(destination, Destination::Folder(_))
+        self.draw.figure.kind() == figure::Kind::Compare
+            && scenes == 2
+            && !matches!(destination, Destination::Folder(_))
     }
 
     /// Draws the last frames of two scenes next to each other, with the changes between them.

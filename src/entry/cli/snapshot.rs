@@ -82,6 +82,10 @@ impl Snapshot {
         self.check_options(asks, acceptance)?;
         let found = discover(&self.folders, self.only.as_deref())
             .map_err(|errors| errors.into_iter().map(CliError::CommandLine).collect::<Vec<_>>())?;
+        let mut notes: Vec<String> = found.jobs.iter().flat_map(|job| job.settings.notes()).collect();
+        notes.sort();
+        notes.dedup();
+        notes.iter().for_each(|note| terminal.note(note));
         if found.jobs.is_empty() && found.orphans.is_empty() && found.faults.is_empty() {
             return Err(vec![self.nothing_found_error()]);
         }

@@ -357,16 +357,22 @@ fn remarks(analysis: &Analysis, number: usize, detail: &Detail, range: Option<&s
     remarks.extend(
         frame.placement.as_ref().map(|p| format!("placement: {}", question::placement_sentence(scene, frame, p))),
     );
-    let moved = frame.movements.iter().map(|m| format!("movement: {}", question::movement_sentence(scene, frame, m)));
-    remarks.extend(moved);
+    remarks.extend(question::movement_sentences(scene, frame).into_iter().map(|words| format!("movement: {words}")));
     let rows = frame.removable.iter();
     remarks.extend(rows.map(|rows| format!("removable: {}", question::removable_phrases(scene, rows).join("; "))));
+    let helped = frame.removable.iter().flat_map(|rows| question::removable_rows(scene, rows));
+    let helped = helped.filter(|[_, may, _]| may.starts_with("while")).take(MAX_LISTED_FAILURES);
+    remarks.extend(helped.map(|[block, may, _]| format!("removable: {block} {may}")));
     remarks.extend(frame.reach.iter().flat_map(|found| question::reach_lines(scene, found)));
     remarks.extend(
         frame.vehicle.as_ref().map(|influence| format!("vehicle: {}", question::vehicle_sentence(scene, influence))),
     );
     let carried = frame.capacity.iter();
-    remarks.extend(carried.map(|c| format!("capacity: {}", capacity::sentences(scene, frame.verdict, c))));
+    remarks.extend(carried.map(|c| {
+        let governed = question::conditions(frame, c.edges.iter().map(|edge| edge.condition));
+        let governed = governed.map(|names| format!("; governed by {names}")).unwrap_or_default();
+        format!("capacity: {}{governed}", capacity::sentences(scene, frame.verdict, c))
+    }));
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));
     remarks
 }

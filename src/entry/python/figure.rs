@@ -11,15 +11,16 @@ use crate::entry::cli::error::CliError;
 use crate::entry::cli::missing_glyphs;
 use crate::entry::cli::picture::Format;
 use crate::entry::cli::report::{form_of, stem_of, write};
-use crate::entry::request::{in_json, read_json};
+use crate::entry::request::{FigureArgs, in_json, read_json};
 use crate::geometry::Polygon;
 use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::{Scene, Sketch};
 use crate::pictures::drawing::Theme;
 use crate::pictures::output::fonts::Fonts;
-use crate::products::figure;
+use crate::products::figure::{self, Fill, View};
 use crate::products::report::entry::{Entry, File, ReportOptions};
 use crate::products::report::page::{Form, Piece, Report};
+use crate::text::Word;
 
 /// Draws a figure of all frames, or only of frame number `frame`, counted from 0. Returns the bytes of the picture
 /// file. `request` are options of a figure as JSON, and the file extension `ending` selects the format.
@@ -50,6 +51,15 @@ pub(super) fn sketch(py: Python<'_>, text: &str, request: &str, ending: &str) ->
         args.picture.bytes(drawing, format, &fonts).map_err(message)
     };
     py.detach(drawn).map_err(|why| fault(py, &why))
+}
+
+/// Returns what to write instead of a kind of figure or a quantity of colours with a name of the last version.
+#[pyfunction]
+pub(super) fn new_name(kind: Option<&str>, fill: Option<&str>) -> Option<String> {
+    let kind = kind.and_then(View::from_name).unwrap_or_default();
+    let fill = fill.and_then(Fill::from_word).unwrap_or_default();
+    let options = figure::Options { fill, ..figure::Options::default() };
+    FigureArgs { kind, options, ..FigureArgs::default() }.note().map(|note| in_json(&note))
 }
 
 /// Reads the options of a figure from JSON, and checks that they fit the format of the file extension `ending`.

@@ -328,7 +328,7 @@ fn run(py: Python<'_>, words: Vec<OsString>) -> u8 {
 #[pymodule]
 mod _drystone {
     #[pymodule_export]
-    use crate::entry::python::figure::sketch;
+    use crate::entry::python::figure::{new_name, sketch};
     #[pymodule_export]
     use crate::entry::python::session::Session;
     #[pymodule_export]

@@ -81,7 +81,7 @@ impl PageArgs {
     /// Draws an analysis that has all results for the figure.
     fn page(&self, analysis: &Analysis) -> Result<String, Refusal> {
         let options = self.figure.for_scene(&self.options()?, &analysis.scene).map_err(Refused::from)?;
-        self.svg(figure::draw(analysis, self.figure.kind, &options))
+        self.svg(figure::draw(analysis, self.figure.kind(), &options))
     }
 
     fn options(&self) -> Result<figure::Options, Refusal> {

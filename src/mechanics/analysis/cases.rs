@@ -4,8 +4,8 @@
 //! this verdict, it is the one with the least load factor, and then the first. The load factor is always computed for this,
 //! so the worst case does not depend on what else is asked.
 //!
-//! Margins, the placement tolerance, removable blocks and the influence line must hold in all cases. [`Answers`] combines the
-//! answers of the cases, and of the governing position of the vehicle. It names the [`Condition`] that decides each answer.
+//! Every answer must hold in all cases. [`Answers`] combines the answers of the cases, and of the positions of the vehicle. It
+//! names the [`Condition`] that decides each answer. Movements of supports have an answer for each case.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use super::answers::Answers;
 use super::condition::Condition;
 use super::decide::decided_forces;
 use super::margin::{END_TOL, largest_load_factor};
-use super::{Analysis, FrameAnalysis, Influence, Margins, Options, Verdict, reach, repeat, vehicle};
+use super::{Analysis, FrameAnalysis, Influence, Margins, Options, SupportMovement, Verdict, position, reach, repeat};
 use crate::mechanics::scene::{Case, Load, Note, Scene};
 use crate::mechanics::solve::{DeadlineGuard, is_late};
 use crate::mechanics::statics::assembly::Assembly;
@@ -46,6 +46,8 @@ pub struct CaseResult {
     pub verdict: Verdict,
     /// How far the frame is from its limit in this case, if requested.
     pub margins: Option<Margins>,
+    /// How the frame follows the movements of the scene in this case.
+    pub movements: Vec<SupportMovement>,
 }
 
 /// The least and the greatest forces at one interface, N.
@@ -144,8 +146,12 @@ impl Analysis {
             for (place, (number, frame)) in
                 found.frames.iter().enumerate().filter(|(k, _)| source[*k] == *k).enumerate()
             {
-                let (id, verdict, margins) = (case.id.clone(), frame.verdict, frame.margins.clone());
-                cases[number].each.push(CaseResult { id, verdict, margins });
+                cases[number].each.push(CaseResult {
+                    id: case.id.clone(),
+                    verdict: frame.verdict,
+                    margins: frame.margins.clone(),
+                    movements: frame.movements.clone(),
+                });
                 let own = Answers::of(frame, Condition { case: Some(k), position: None });
                 if k == 0 {
                     answers.push(own);
@@ -162,6 +168,7 @@ impl Analysis {
                     line
                 });
                 // Only the worst case has forces that are shown, so a lone verdict needs no load factor.
+                let verdict = frame.verdict;
                 let is_compared = !options.verdict_only && scene.cases.len() > 1 && verdict >= frames[number].verdict;
                 let factor =
                     if is_compared { load_factor(&found.scene, number, frame, &interfaces) } else { f64::INFINITY };
@@ -178,7 +185,6 @@ impl Analysis {
         for ((k, frame), answers) in own.iter_mut().zip(answers) {
             if scene.cases.len() > 1 {
                 answers.give_to(&scene, frame);
-                frame.say_what_holds_in_one_case(&scene, cases[*k].governing);
             }
             cases[*k].is_worst = frame.verdict != Verdict::Stable || worst[*k].is_finite();
             frame.cases = Some(std::mem::take(&mut cases[*k]));
@@ -225,7 +231,7 @@ impl Analysis {
         let case = condition.case.and_then(|case| given.in_cases().nth(case));
         let bare = case.map_or_else(|| Scene::clone(given), |(_, scene)| scene);
         let line = found.vehicle.as_ref().zip(condition.position);
-        let loaded = line.and_then(|(line, position)| vehicle::scene_with_axles(&bare, line.positions.get(position)?));
+        let loaded = line.and_then(|(line, position)| position::scene_with_axles(&bare, line.positions.get(position)?));
         Arc::new(loaded.unwrap_or(bare))
     }
 
@@ -237,23 +243,6 @@ impl Analysis {
     /// Returns the scene as its author wrote it, with its load cases.
     pub(crate) fn given(&self) -> &Arc<Scene> {
         self.cases.as_ref().map_or(&self.scene, |cases| &cases.given)
-    }
-}
-
-impl FrameAnalysis {
-    /// Says which answers belong to the worst case alone.
-    fn say_what_holds_in_one_case(&mut self, scene: &Scene, governing: usize) {
-        let answers = [
-            ("sensitivity", self.sensitivity.is_some()),
-            ("capacity", self.capacity.is_some()),
-            ("movements", !self.movements.is_empty()),
-            ("wedging", self.only_by_wedging.is_some()),
-        ];
-        let own: Vec<&str> = answers.into_iter().filter(|(_, is_there)| *is_there).map(|(word, _)| word).collect();
-        if !own.is_empty() {
-            let (id, count) = (&scene.cases[governing].id, scene.cases.len());
-            self.notices.push(format!("{}: in the load case {id} alone, 1 of {count} cases", own.join(", ")));
-        }
     }
 }
 

@@ -21,6 +21,7 @@ mod gaps_closed;
 mod option;
 mod pair;
 mod placement;
+mod position;
 mod removable;
 mod repeat;
 mod wedged;
@@ -71,12 +72,13 @@ pub use movement::{Crack, Cracked, MovementOutcome, SupportMovement};
 pub use option::{Accuracy, Options};
 pub use pair::pair;
 pub use placement::{BlockPlacement, Placement, PlacementError, PlacementLimit};
+pub use position::VehiclePosition;
 pub use reach::{Change, ChangeKind, Reach, Reached};
 pub use removable::{Help, Removable};
-pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity, Slope};
+pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, LoadSlope, NoSensitivity, Sensitivity, Slope};
 pub use thrust_states::{ThrustState, ThrustStates};
 pub use undecided::UndecidedReason;
-pub use vehicle::{Influence, UnderVehicle, VehiclePosition};
+pub use vehicle::{Influence, UnderVehicle};
 pub use warm_start::{Source, verdicts};
 pub(crate) use warm_start::{WarmStart, hinges_on_gaps};
 pub use wedged::{FaceCase, PointCase, RuledOut, Wedged};
@@ -193,11 +195,10 @@ pub struct FrameAnalysis {
     pub margins: Option<Margins>,
     /// How a margin changes with corners, weights, friction and loads, if requested.
     pub sensitivity: Option<Sensitivity>,
-    /// The results of the load cases, if the scene has any. The margins, the placement tolerance, the removable blocks and
-    /// the influence line hold in all cases; all other results are those of the worst case.
+    /// The results of the load cases, if the scene has any. All answers to questions hold in all cases; the forces, the
+    /// failures and the mechanism are those of the worst case.
     pub cases: Option<LoadCases>,
-    /// The margins and the placement tolerance in the condition of the other results alone, if they were also examined
-    /// in others.
+    /// The answers in the condition of the forces alone, if they were also examined in others.
     pub(crate) alone: Option<Arc<Alone>>,
     /// How accurately the blocks must be placed, if requested and if the frame stands.
     pub placement: Option<Placement>,
@@ -237,6 +238,7 @@ pub struct FrameAnalysis {
 pub(crate) struct Alone {
     margins: Option<Margins>,
     placement: Option<Placement>,
+    capacity: Option<LoadCapacity>,
 }
 
 impl FrameAnalysis {
@@ -248,6 +250,12 @@ impl FrameAnalysis {
     /// Returns the placement tolerance for the weights and loads to which the forces of the frame belong.
     pub(crate) fn placement_alone(&self) -> Option<&Placement> {
         self.alone.as_ref().map_or(self.placement.as_ref(), |alone| alone.placement.as_ref())
+    }
+
+    /// Returns the capacity for the weights and loads to which the forces of the frame belong.
+    #[cfg(feature = "certificate")]
+    pub(crate) fn capacity_alone(&self) -> Option<&LoadCapacity> {
+        self.alone.as_ref().map_or(self.capacity.as_ref(), |alone| alone.capacity.as_ref())
     }
 
     /// Returns the condition of the forces: the worst load case, with the vehicle if the frame falls under it.

@@ -68,9 +68,11 @@ words! {
     /// A single change of a frame.
     #[non_exhaustive]
     pub enum ChangeKind {
-        /// One friction coefficient at all joints.
+        /// One friction coefficient at all joints, if they have the same now.
         #[default]
         Friction = "friction";
+        /// A factor on the friction coefficients, as the margin `friction_factor`, if they differ now.
+        FrictionFactor = "friction_factor";
         /// A factor on the thickness of a chain of blocks, of which each touches exactly two bodies. The middles of the
         /// joints stay.
         Thickness = "thickness";
@@ -232,8 +234,15 @@ impl Search {
         let mut change = Change { what, blocks: Vec::new(), least: None, mechanism: Vec::new() };
         let placed = &self.states[0].scene.frames[0].placed;
         match what {
-            ChangeKind::Friction => {
-                let each = self.states.iter().map(|state| state.interval(MarginKind::Friction, &[]));
+            ChangeKind::Friction | ChangeKind::FrictionFactor => {
+                let contacts = || self.states.iter().flat_map(|state| &state.assembly.contacts);
+                let first = contacts().next().map(|contact| contact.friction);
+                let is_alike = contacts().all(|own| own.is_factored && Some(own.friction) == first);
+                let kind = if is_alike { MarginKind::Friction } else { MarginKind::FrictionFactor };
+                if is_alike != (what == ChangeKind::Friction) {
+                    return Ok(None);
+                }
+                let each = self.states.iter().map(|state| state.interval(kind, &[]));
                 let each: Vec<Interval> = each.collect();
                 change.least = least_of_all(&each, 1.0)?;
                 let exclusions =

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::capacity::{capacity_of_assembly, decided, with_grip};
 use super::condition::Condition;
+use super::position::{in_all_positions, same_position};
 use super::{Analysis, FrameAnalysis, Options, Verdict};
 use crate::geometry::{Point, Vector, quarter_turn};
 use crate::mechanics::proof::{Motion, net_power};
@@ -86,6 +87,10 @@ pub(super) fn add_removables(scene: &Scene, interfaces: &Interfaces, frames: &mu
             ..frame.clone()
         };
         let mut rows = Vec::with_capacity(frame.placed.len());
+        // The conditions in which a frame that stands without its vehicle falls.
+        let is_open = found.verdict == Verdict::Stable && scene.vehicle.is_some();
+        let mut open = if is_open { in_all_positions(scene, frame, interfaces) } else { Vec::new() };
+        open.retain(|given| decided(&given.components()).0 != Verdict::Stable);
         for blocks in frame.placed.chunks((MAX_TOGETHER / frame.placed.len().max(1)).max(1)) {
             if options.is_late() {
                 let is_held = |block: BlockId| frame.holds.iter().any(|hold| hold.block == block);
@@ -101,7 +106,7 @@ pub(super) fn add_removables(scene: &Scene, interfaces: &Interfaces, frames: &mu
             let rests = Analysis::with(Scene { frames: rests, ..scene.clone() }, &options.only_verdict());
             let one = |number: usize| {
                 let _until = DeadlineGuard::new(options.deadline);
-                of_block(&rests, interfaces, number, (blocks[number], frame), found.verdict)
+                of_block(&rests, interfaces, number, (blocks[number], frame), (found.verdict, &open))
             };
             let numbers = 0..blocks.len();
             #[cfg(feature = "parallel")]
@@ -117,28 +122,31 @@ pub(super) fn add_removables(scene: &Scene, interfaces: &Interfaces, frames: &mu
     }
 }
 
-/// Finds out whether one block may leave the frame `whole`. The frame `number` of `rests` is the one without this block.
+/// Finds out whether one block may leave the frame `whole`, which has this verdict without its vehicle, and falls in the
+/// conditions `open`. The frame `number` of `rests` is the one without this block.
 /// The flag says that a force is missing because no proof was found.
 fn of_block(
     rests: &Analysis,
     interfaces: &Interfaces,
     number: usize,
     (block, whole): (BlockId, &Frame),
-    verdict: Verdict,
+    (verdict, open): (Verdict, &[Assembly]),
 ) -> (Removable, bool) {
-    // If the rest falls under a vehicle, this scene has the axles at the governing position.
-    let (scene, rest) = (rests.scene_of(number), &rests.frames[number]);
-    let assembly = |frame: &Frame| effect::assembly_of(scene, frame, interfaces);
+    let (scene, rest) = (rests.given(), &rests.frames[number]);
     let hold = whole.holds.iter().find(|hold| hold.block == block);
     let force = match (verdict, hold) {
         (Verdict::Undecided, _) => Ok(None),
-        (Verdict::Stable, None) => Ok(Some(0.0)),
+        (Verdict::Stable, None) => {
+            largest_hold(open, (block, scene.blocks[block.0].centroid)).map(|help| help.map(|help| help.force))
+        }
         _ => {
-            let mut given = assembly(whole);
-            let robots = given.grips.iter_mut().filter(|grip| hold.is_some_and(|hold| hold.robot == grip.robot));
-            robots.for_each(|grip| grip.limits = Limits { fx: 0.0, fy: 0.0, torque: 0.0 });
+            let mut all = in_all_positions(scene, whole, interfaces);
+            for given in &mut all {
+                let robots = given.grips.iter_mut().filter(|grip| hold.is_some_and(|hold| hold.robot == grip.robot));
+                robots.for_each(|grip| grip.limits = Limits { fx: 0.0, fy: 0.0, torque: 0.0 });
+            }
             let at = hold.map_or(scene.blocks[block.0].centroid, |hold| hold.at);
-            least_hold(&given, vec![(block, at)], &[]).map(|help| help.map(|help| help.force))
+            largest_hold(&all, (block, at)).map(|help| help.map(|help| help.force))
         }
     };
     let help = match rest.verdict {
@@ -146,13 +154,40 @@ fn of_block(
             let frame = &scene.frames[number];
             let free = frame.placed.iter().filter(|block| frame.holds.iter().all(|hold| hold.block != **block));
             let points = free.map(|block| (*block, scene.blocks[block.0].centroid)).collect();
-            least_hold(&assembly(frame), points, &rest.mechanism)
+            // If the rest falls under a vehicle, this scene has the axles at the governing position.
+            let given = effect::assembly_of(rests.scene_of(number), frame, interfaces);
+            match least_hold(&given, points, &rest.mechanism) {
+                Ok(Some(help)) if scene.vehicle.is_some() => {
+                    let point = (help.block, scene.blocks[help.block.0].centroid);
+                    largest_hold(&in_all_positions(scene, frame, interfaces), point)
+                }
+                found => found,
+            }
         }
         _ => Ok(None),
     };
     let is_missing = force.is_err() || help.is_err();
     let (force, help) = (force.unwrap_or_default(), help.unwrap_or_default());
-    (Removable::new(block, rest.verdict, force, help), is_missing)
+    let position = rest.under_vehicle.and_then(|under| under.position);
+    let position = position.and_then(|own| same_position(scene, (&scene.frames[number], own), whole));
+    let row = Removable::new(block, rest.verdict, force, help);
+    (Removable { condition: Condition { position, ..row.condition }, ..row }, is_missing)
+}
+
+/// Returns the least force at a point of a block with which a frame stands in each of several conditions: the largest of
+/// the forces that they need. `None` if no force suffices in one of them.
+fn largest_hold(conditions: &[Assembly], (block, at): (BlockId, Point)) -> Result<Option<Help>, NotFound> {
+    let mut worst = Help { block, force: 0.0 };
+    for given in conditions {
+        match decided(&given.components()) {
+            (Verdict::Stable, _) => {}
+            (_, motion) => match least_hold(given, vec![(block, at)], &motion)? {
+                Some(help) => worst.force = worst.force.max(help.force),
+                None => return Ok(None),
+            },
+        }
+    }
+    Ok(Some(worst))
 }
 
 /// No proof shows which force is the least.

@@ -120,7 +120,7 @@ impl Analysis {
 
     /// Computes the most central forces: forces that balance the frame with almost the largest safety kernel with
     /// which it stands. `None` if this kernel is unknown, or if the forces have no proof.
-    fn central(&self, number: usize) -> Option<ThrustState> {
+    pub(crate) fn central(&self, number: usize) -> Option<ThrustState> {
         let kernel = self.frames[number].margins_alone()?.most(MarginKind::Kernel)?;
         let mut scene = self.scene_of(number).alone(number)?;
         scene.movements.clear();

@@ -14,25 +14,20 @@
 
 use std::sync::Arc;
 
+#[cfg(feature = "parallel")]
+use rayon::prelude::*;
+
 use super::answers::Answers;
 use super::condition::Condition;
 use super::decide::decided_forces;
 use super::margin::{END_TOL, End, largest_load_factor};
+use super::position::{MAX_POSITIONS, VehiclePosition, positions, track, with_axle_loads, with_axles};
 use super::{Analysis, FrameAnalysis, Motion, Options, UndecidedReason, Verdict};
-use crate::geometry::{Edge, Point, Vector, quarter_turn};
 use crate::mechanics::proof::Forces;
-use crate::mechanics::scene::{BlockId, Frame, Load, Scene, Vehicle};
+use crate::mechanics::scene::{Frame, Scene, Vehicle};
 use crate::mechanics::solve::{DeadlineGuard, is_late};
-use crate::mechanics::statics::assembly::{Assembly, load_about};
 use crate::mechanics::statics::effect;
 use crate::mechanics::statics::interface::Interfaces;
-
-/// More positions than this are not analysed.
-const MAX_POSITIONS: usize = 5000;
-/// More positions than this in one direction are not added for a `step`.
-const MAX_STEPS: f64 = 1000.0;
-/// Two ends of edges this close to each other, relative to the length of the track, are one point.
-const SAME_PLACE: f64 = 1e-9;
 
 /// The largest load factor for each position of a vehicle. The factor multiplies the weight of the vehicle and all listed
 /// loads, like the load factor of a margin.
@@ -45,20 +40,6 @@ pub struct Influence {
     pub governing: Option<usize>,
     /// How the structure begins to fall at this position, just beyond the factor.
     pub mechanism: Vec<Motion>,
-}
-
-/// A position of a vehicle.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct VehiclePosition {
-    /// The coordinate of the first axle, metres: x if gravity points downwards.
-    pub at: f64,
-    /// Whether the vehicle travels to the right.
-    pub to_right: bool,
-    /// Each axle on the structure: its index, the block below it, and the point at which it stands.
-    pub axles: Vec<(usize, BlockId, Point)>,
-    /// The largest factor with which the frame is proved to stand; `None` if it may grow without limit.
-    pub factor: Option<f64>,
 }
 
 impl Influence {
@@ -141,56 +122,67 @@ pub(super) fn decide_under_vehicle(
                 break;
             }
         }
+        let mut answers = Answers::of(found, Condition::default());
+        let mut worst_position = None;
         if let Some((_, own, loaded, alone)) = worst {
             let under = UnderVehicle { position: influence.is_some().then_some(own), alone: found.verdict };
-            let mut results = Analysis::decide(alone.into(), options).frames;
-            if let Some(results) = results.pop() {
-                let results = Arc::unwrap_or_clone(results);
-                let there = Condition { case: None, position: under.position };
-                *found = Answers::of(&results, there).in_place_of(results);
+            let asked = Options { removable: false, ..*options };
+            if let Some(results) = Analysis::decide(alone.into(), &asked).frames.pop() {
+                *found = Arc::unwrap_or_clone(results);
+                answers.also(Answers::of(found, Condition { case: None, position: under.position }));
+                worst_position = Some(own);
                 found.under_vehicle = Some(under);
                 governing[number] = Some(loaded);
             }
         }
-        if found.under_vehicle.is_none() {
-            if let Some(position) = influence.as_ref().and_then(|line| line.governing)
-                && (found.margins.is_some() || found.placement.is_some())
-            {
-                // These answers must also hold at the governing position.
-                let loaded = with_axle_loads(whole, vehicle, &positions[position]);
-                let alone = Scene { vehicle: None, frames: vec![frame.clone()], ..loaded };
-                let asked = Options {
-                    capacity: None,
-                    sensitivity: None,
-                    removable: false,
-                    wedging: false,
-                    reach: None,
-                    margins: found.margins.is_some(),
-                    margin_kinds: options.wanted_margins().unwrap_or_default(),
-                    ..*options
+        let has_others = options.placement || options.capacity.is_some() || options.wedging;
+        if options.wanted_margins().is_some() || has_others {
+            let asked = Options { removable: false, reach: None, ..*options };
+            // The worst positions come first: their answers are seldom changed by others.
+            let factor = |own: &usize| influence.as_ref().and_then(|line| line.positions[*own].factor);
+            let mut order: Vec<usize> = (0..count).filter(|own| worst_position != Some(*own)).collect();
+            let rank = |own: &usize| if governs(own) { 0.0 } else { factor(own).unwrap_or(f64::MAX) };
+            order.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+            let bare = effect::assembly_of(scene, frame, interfaces);
+            let (mut rest, mut examined) = (&order[..], usize::from(worst_position.is_some()));
+            while !rest.is_empty() {
+                let changes = |own: &usize| {
+                    let _until = DeadlineGuard::new(options.deadline);
+                    let loaded = with_axles(scene, &bare, vehicle, &positions[*own]).unwrap_or_else(|| bare.clone());
+                    let there = with_axle_loads(whole, vehicle, &positions[*own]);
+                    options.wedging || is_late() || !answers.hold_for(&there, &loaded)
                 };
-                let there = Analysis::decide(alone.into(), &asked).frames.pop().map(Arc::unwrap_or_clone);
-                if let Some(mut there) = there {
-                    there.removable.clone_from(&found.removable);
-                    let mut answers = Answers::of(found, Condition::default());
-                    answers.also(Answers::of(&there, Condition { case: None, position: Some(position) }));
-                    answers.give_to(whole, found);
+                #[cfg(feature = "parallel")]
+                let next = rest.par_iter().position_first(changes);
+                #[cfg(not(feature = "parallel"))]
+                let next = rest.iter().position(changes);
+                let Some(next) = next else { break };
+                if is_late() {
                     found.notices.push(format!(
-                        "margins, placement: examined without the vehicle and at its governing position, not at {}",
-                        if count == 2 { "the other one".to_owned() } else { format!("the other {}", count - 1) }
+                        "the time limit ended the search: margins and other answers were examined at {} of {count} \
+                         positions of the vehicle",
+                        count - rest.len() + next
                     ));
+                    break;
                 }
+                let loaded = with_axle_loads(whole, vehicle, &positions[rest[next]]);
+                let alone = Scene { vehicle: None, movements: Vec::new(), frames: vec![frame.clone()], ..loaded };
+                if let Some(there) = Analysis::decide(alone.into(), &asked).frames.pop() {
+                    answers.also(Answers::of(&there, Condition { case: None, position: Some(rest[next]) }));
+                }
+                (rest, examined) = (&rest[next + 1..], examined + 1);
             }
-            let answers = [
-                ("sensitivity", found.sensitivity.is_some()),
-                ("capacity", found.capacity.is_some()),
-                ("movements", !found.movements.is_empty()),
-                ("forces of removable blocks", found.removable.is_some()),
-            ];
-            let bare = answers.into_iter().filter(|(_, is_there)| *is_there).map(|(word, _)| word);
-            let bare = bare.collect::<Vec<_>>().join(", ");
-            if !bare.is_empty() {
-                found.notices.push(format!("{bare}: computed without the vehicle, whose factor is given on its own"));
+            if answers.has_placement_of_blocks() && examined < count {
+                found.notices.push(format!(
+                    "placement: the tolerances of single blocks were examined without the vehicle and at {examined} of \
+                     {count} positions, that of all blocks at each"
+                ));
+            }
+        }
+        if !options.verdict_only {
+            answers.give_to(whole, found);
+            if !found.movements.is_empty() {
+                found.notices.push("movements: computed without the vehicle, whose factor is given on its own".into());
             }
         }
         found.effects.retain(|report| report.effect != effect::EffectName::Vehicle);
@@ -209,12 +201,6 @@ pub(super) fn at_governing_position(scene: &Scene, number: usize, interfaces: &I
     Some(with_axle_loads(scene, vehicle, &influence.positions[influence.governing?]))
 }
 
-/// Returns a scene with the axles of its vehicle as loads at a position, and without the vehicle. `None` if it has none.
-pub(super) fn scene_with_axles(scene: &Scene, position: &VehiclePosition) -> Option<Scene> {
-    let loaded = with_axle_loads(scene, scene.vehicle.as_ref()?, position);
-    Some(Scene { vehicle: None, ..loaded })
-}
-
 impl Analysis {
     /// Returns the analysis with scenes without the axles, which a figure of the vehicle draws itself.
     pub(crate) fn without_axles(&self) -> Analysis {
@@ -229,23 +215,6 @@ impl Analysis {
         }
         bare
     }
-}
-
-/// Returns a scene whose loads also contain the axles of a vehicle at a position.
-fn with_axle_loads(scene: &Scene, vehicle: &Vehicle, position: &VehiclePosition) -> Scene {
-    let first = scene.loads.iter().map(|load| load.entry + 1).max().unwrap_or(0);
-    let mut loads = scene.loads.clone();
-    loads.extend(position.axles.iter().enumerate().map(|(number, (axle, block, at))| Load {
-        block: *block,
-        force: scene.down() * vehicle.axles[*axle].weight,
-        at: *at,
-        torque: 0.0,
-        is_fixed: false,
-        entry: first + number,
-        spread: None,
-        at_centroid: false,
-    }));
-    Scene { loads, ..scene.clone() }
 }
 
 /// Returns the influence line of a frame for these positions. `None` if the frame does not stand without its loads, or
@@ -286,118 +255,4 @@ fn influence(
         }
     }
     Some(Influence { positions, governing: governing.map(|least| least.0), mechanism })
-}
-
-/// Returns a component with the axles on its blocks; `None` if no axle stands on them.
-fn with_axles(scene: &Scene, component: &Assembly, vehicle: &Vehicle, position: &VehiclePosition) -> Option<Assembly> {
-    let body_of = |block: BlockId| component.bodies.binary_search_by_key(&block, |body| body.block).ok();
-    let mut loaded: Option<Assembly> = None;
-    for (axle, block, at) in &position.axles {
-        if let Some(number) = body_of(*block) {
-            let body = &mut loaded.get_or_insert_with(|| component.clone()).bodies[number];
-            let load = load_about(body.centroid, *at, scene.down() * vehicle.axles[*axle].weight, 0.0);
-            body.listed = body.listed.plus(load);
-        }
-    }
-    loaded
-}
-
-/// A part of the track: an edge of a block between two coordinates.
-#[derive(Clone, Copy, Debug)]
-struct Top {
-    from: f64,
-    to: f64,
-    block: BlockId,
-    edge: Edge,
-}
-
-/// Returns the edges of the blocks of the vehicle that are seen from above, from left to right. Other blocks hide what is
-/// below them.
-fn track(scene: &Scene, frame: &Frame, vehicle: &Vehicle) -> Vec<Top> {
-    let across = quarter_turn(scene.down());
-    let place = |point: Point| across.dot(&point.coords);
-    let is_named = |block: &BlockId| vehicle.over.is_empty() || vehicle.over.contains(block);
-    let mut edges: Vec<Top> = Vec::new();
-    for block in &frame.placed {
-        // The stone is on the left of an edge, so the edges that are seen from above run to the left.
-        let of_block = scene.blocks[block.0].body.polygon.edges();
-        let tops = of_block.map(|edge| Top { from: place(edge.to), to: place(edge.from), block: *block, edge });
-        edges.extend(tops.filter(|top| top.from < top.to));
-    }
-    edges.sort_by(|a, b| a.from.total_cmp(&b.from));
-    let mut places: Vec<f64> = edges.iter().flat_map(|top| [top.from, top.to]).collect();
-    places.sort_by(f64::total_cmp);
-    let length = places.last().zip(places.first()).map_or(0.0, |(last, first)| last - first);
-    places.dedup_by(|b, a| *b - *a <= SAME_PLACE * length);
-    let (mut track, mut open, mut next): (Vec<Top>, Vec<Top>, usize) = (Vec::new(), Vec::new(), 0);
-    for ends in places.windows(2) {
-        let middle = 0.5 * (ends[0] + ends[1]);
-        while next < edges.len() && edges[next].from < middle {
-            open.push(edges[next]);
-            next += 1;
-        }
-        open.retain(|top| top.to > middle);
-        let height = |top: &Top| -scene.down().dot(&top.point(across, middle).coords);
-        let highest = open.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
-        let Some(highest) = highest.filter(|top| is_named(&top.block)) else { continue };
-        match track.last_mut() {
-            Some(last) if last.edge == highest.edge && last.to == ends[0] => last.to = ends[1],
-            _ => track.push(Top { from: ends[0], to: ends[1], ..*highest }),
-        }
-    }
-    track
-}
-
-impl Top {
-    /// Returns the point of the edge at a coordinate along `across`.
-    fn point(&self, across: Vector, at: f64) -> Point {
-        let long = self.edge.to - self.edge.from;
-        self.edge.from + long * ((at - across.dot(&self.edge.from.coords)) / across.dot(&long))
-    }
-}
-
-/// Returns the positions of a vehicle that are analysed; `None` if there are none or too many.
-fn positions(scene: &Scene, vehicle: &Vehicle, track: &[Top]) -> Option<Vec<VehiclePosition>> {
-    let (first, last) = (track.first()?.from, track.last()?.to);
-    // Most axles have a position of their own at each end of an edge.
-    if vehicle.axles.len() * track.len() > 100 * MAX_POSITIONS {
-        return None;
-    }
-    let across = quarter_turn(scene.down());
-    let mut positions = Vec::new();
-    for to_right in [true, false] {
-        let behind = if to_right { 1.0 } else { -1.0 };
-        if !to_right && (!vehicle.both_ways || vehicle.axles.len() < 2) {
-            continue;
-        }
-        let offsets = vehicle.axles.iter().map(|axle| behind * axle.offset);
-        // Each place with the side on which an axle at an end of an edge stands: -1 to the left, 1 to the right.
-        let ends = track.iter().flat_map(|top| [(top.from, 1.0), (top.to, -1.0)]);
-        let ends: Vec<(f64, f64)> = ends.collect();
-        let at_ends = |offset: f64| ends.iter().map(move |(end, side)| (end + offset, *side));
-        let mut places: Vec<(f64, f64)> = offsets.clone().flat_map(at_ends).collect();
-        let [least, most] = [f64::min, f64::max].map(|of| offsets.clone().fold(0.0, of));
-        let count = (last + most - first - least) / vehicle.step;
-        // Positions between the ends only make the line smoother, so too many of them are left out.
-        if vehicle.step > 0.0 && count <= MAX_STEPS {
-            places.extend((0..=count as usize).map(|k| (first + least + k as f64 * vehicle.step, 1.0)));
-        }
-        places.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        places.dedup();
-        if !to_right {
-            places.reverse();
-        }
-        positions.extend(places.into_iter().map(|(at, side)| {
-            let axles = vehicle.axles.iter().enumerate();
-            let axles = axles.filter_map(|(number, axle)| {
-                let place = at - behind * axle.offset + side * SAME_PLACE * (last - first);
-                let top = track[..track.partition_point(|top| top.from <= place)].last()?;
-                let inside = (at - behind * axle.offset).clamp(top.from, top.to);
-                (place <= top.to).then(|| (number, top.block, top.point(across, inside)))
-            });
-            VehiclePosition { at, to_right, axles: axles.collect(), factor: None }
-        }));
-    }
-    positions.retain(|position: &VehiclePosition| !position.axles.is_empty());
-    (!positions.is_empty() && positions.len() <= MAX_POSITIONS).then_some(positions)
 }

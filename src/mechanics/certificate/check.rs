@@ -8,7 +8,7 @@
 use std::collections::BTreeSet;
 
 use super::fraction::{Number, Rational, Vector, Wrench, eliminate, solve};
-use super::links::{Link, grip_wrenches, length_of_normal, sides};
+use super::links::{Link, length_of_normal, sides};
 use super::number::{Interval, WORK, allow, is_spent, spend};
 use super::{BodyForm, Certificate, ContactForm, FrameForm, LimitForm, Pair, Step};
 use crate::mechanics::solve::is_late;
@@ -150,93 +150,107 @@ impl Certificate {
     /// wrong length, and numbers of a wrong sign.
     fn form_errors(&self, bodies: &[BodyForm], frames: &[FrameForm]) -> Vec<String> {
         let mut errors = Vec::new();
-        let mut need = |fine: bool, text: &dyn Fn() -> String| {
-            if !fine {
-                errors.push(text());
-            }
-        };
-        need(self.drystone_certificate == 1, &|| format!("version {} is not 1", self.drystone_certificate));
-        need(self.distance >= 0.0 && self.shortest >= 0.0, &|| "a distance is negative".to_owned());
+        macro_rules! need {
+            ($fine:expr, $($text:tt)+) => {
+                if !$fine {
+                    errors.push(format!($($text)+));
+                }
+            };
+        }
+        need!(self.drystone_certificate == 1, "version {} is not 1", self.drystone_certificate);
+        need!(self.distance >= 0.0 && self.shortest >= 0.0, "a distance is negative");
         for body in bodies {
             let mut rings = std::iter::once(&body.outline).chain(&body.holes);
-            need(body.circle.is_some() || rings.all(|ring| ring.len() >= 3), &|| {
-                format!("an outline of {} has fewer than 3 corners", body.id)
-            });
-            need(body.circle.is_none_or(|circle| circle.radius > 0.0), &|| {
-                format!("the radius of {} is not more than 0", body.id)
-            });
+            need!(
+                body.circle.is_some() || rings.all(|ring| ring.len() >= 3),
+                "an outline of {} has fewer than 3 corners",
+                body.id
+            );
+            need!(body.circle.is_none_or(|circle| circle.radius > 0.0), "the radius of {} is not more than 0", body.id);
             let none = Rational::ZERO;
             let area = |ring: &Vec<Pair>| sides::<Rational>(ring).fold(none.clone(), |sum, [p, q]| sum + p.cross(&q));
             let (outline, holes): (_, Vec<Rational>) = (area(&body.outline), body.holes.iter().map(area).collect());
             let fine = body.circle.is_some() || outline > none && holes.iter().all(|hole| *hole <= none);
-            need(fine, &|| format!("the outline of {} has no area, or a ring runs the wrong way", body.id));
+            need!(fine, "the outline of {} has no area, or a ring runs the wrong way", body.id);
             let left = holes.into_iter().fold(outline, |sum, hole| sum + hole);
-            need(body.circle.is_some() || !fine || left > none, &|| {
-                format!("the holes of {} are larger than its outline", body.id)
-            });
-            need(body.weight >= 0.0, &|| format!("the weight of {} is negative", body.id));
+            need!(
+                body.circle.is_some() || !fine || left > none,
+                "the holes of {} are larger than its outline",
+                body.id
+            );
+            need!(body.weight >= 0.0, "the weight of {} is negative", body.id);
         }
         let numbers: BTreeSet<usize> = frames.iter().map(|frame| frame.frame).collect();
-        need(numbers.len() == frames.len(), &|| "two frames have the same number".to_owned());
+        need!(numbers.len() == frames.len(), "two frames have the same number");
         let is_block = |index: usize| self.bodies.get(index).is_some_and(|body| !body.ground);
         for frame in frames {
             let n = frame.frame;
             let different: BTreeSet<usize> = frame.placed.iter().copied().collect();
             let is_placed = |index: usize| is_block(index) && different.contains(&index);
             let fine = different.len() == frame.placed.len() && frame.placed.iter().all(|index| is_block(*index));
-            need(fine, &|| format!("frame {n}: a placed body is no block, or is placed twice"));
-            need((0.0..=1.0).contains(&frame.kernel), &|| format!("frame {n}: the kernel is not between 0 and 1"));
+            need!(fine, "frame {n}: a placed body is no block, or is placed twice");
+            need!((0.0..=1.0).contains(&frame.kernel), "frame {n}: the kernel is not between 0 and 1");
             for (k, contact) in frame.contacts.iter().enumerate() {
                 let [on, from] = contact.bodies;
                 let is_ground = self.bodies.get(from).is_some_and(|body| body.ground);
-                need(is_placed(on) && on != from && (is_ground || is_placed(from)), &|| {
-                    format!("frame {n}, contact {k}: the bodies {on} and {from} are not two bodies of this frame")
-                });
+                need!(
+                    is_placed(on) && on != from && (is_ground || is_placed(from)),
+                    "frame {n}, contact {k}: the bodies {on} and {from} are not two bodies of this frame"
+                );
                 let normals = matches!((contact.points.len(), contact.normal), (2, None) | (1, Some(_)));
-                need(normals, &|| format!("frame {n}, contact {k}: needs two points, or one point and a normal"));
-                need(contact.points.len() != 2 || contact.points[0] != contact.points[1], &|| {
-                    format!("frame {n}, contact {k}: its two points are equal")
-                });
-                need(contact.friction.min(contact.factor.unwrap_or(1.0)) >= 0.0, &|| {
-                    format!("frame {n}, contact {k}: its friction is negative")
-                });
+                need!(normals, "frame {n}, contact {k}: needs two points, or one point and a normal");
+                need!(
+                    contact.points.len() != 2 || contact.points[0] != contact.points[1],
+                    "frame {n}, contact {k}: its two points are equal"
+                );
+                need!(
+                    contact.friction.min(contact.factor.unwrap_or(1.0)) >= 0.0,
+                    "frame {n}, contact {k}: its friction is negative"
+                );
             }
-            need(frame.force.as_ref().is_none_or(|(body, _)| is_placed(*body)), &|| {
-                format!("frame {n}: a load on a body that is not placed")
-            });
+            need!(
+                frame.force.as_ref().is_none_or(|(body, _)| is_placed(*body)),
+                "frame {n}: a load on a body that is not placed"
+            );
             for (k, grip) in frame.grips.iter().enumerate() {
-                need(is_placed(grip.body), &|| format!("frame {n}, grip {k}: holds no placed block"));
-                need(grip.limits.iter().flatten().all(|limit| *limit >= 0.0), &|| {
-                    format!("frame {n}, grip {k}: a limit is negative")
-                });
+                need!(is_placed(grip.body), "frame {n}, grip {k}: holds no placed block");
+                need!(
+                    grip.limits.iter().flatten().all(|limit| *limit >= 0.0),
+                    "frame {n}, grip {k}: a limit is negative"
+                );
             }
-            need(frame.error_faults(&self.bodies).is_none(), &|| {
-                format!("frame {n}: {}", frame.error_faults(&self.bodies).unwrap_or_default())
-            });
+            need!(
+                frame.error_faults(&self.bodies).is_none(),
+                "frame {n}: {}",
+                frame.error_faults(&self.bodies).unwrap_or_default()
+            );
             if let Some(forces) = &frame.forces {
                 let (contacts, grips) = (frame.contacts.len(), frame.grips.len());
-                need(forces.contacts.len() == contacts && forces.grips.len() == grips, &|| {
-                    format!("frame {n}: the forces are not those of {contacts} contacts and {grips} grips")
-                });
+                need!(
+                    forces.contacts.len() == contacts && forces.grips.len() == grips,
+                    "frame {n}: the forces are not those of {contacts} contacts and {grips} grips"
+                );
             }
             let reactions = frame.forces.iter().flat_map(|forces| &forces.reactions);
             for (body, entries) in reactions {
                 let count = 3 * (frame.contacts.len() + frame.grips.len());
-                need(is_placed(*body) && entries.iter().all(|(component, _)| *component < count), &|| {
-                    format!("frame {n}: a reaction names a body or a component that is not there")
-                });
+                need!(
+                    is_placed(*body) && entries.iter().all(|(component, _)| *component < count),
+                    "frame {n}: a reaction names a body or a component that is not there"
+                );
             }
             let steps = frame.forces.iter().flat_map(|forces| &forces.order).chain(&frame.still);
             for (bodies, components) in steps {
                 let count = 3 * (frame.contacts.len() + frame.grips.len());
                 let fine = bodies.iter().all(|body| is_placed(*body)) && components.iter().all(|c| *c < count);
-                need(fine, &|| format!("frame {n}: a step names a body or a component that is not there"));
-                need(bodies.len().max(components.len()) <= LARGEST_STEP, &|| {
-                    format!("frame {n}: a step has more than {LARGEST_STEP} bodies or components")
-                });
+                need!(fine, "frame {n}: a step names a body or a component that is not there");
+                need!(
+                    bodies.len().max(components.len()) <= LARGEST_STEP,
+                    "frame {n}: a step has more than {LARGEST_STEP} bodies or components"
+                );
             }
             for motion in frame.motion.iter().flatten() {
-                need(is_placed(motion.body), &|| format!("frame {n}: the motion of a body that is not placed"));
+                need!(is_placed(motion.body), "frame {n}: the motion of a body that is not placed");
             }
         }
         errors
@@ -381,7 +395,8 @@ impl Certificate {
         // The motion of each body: the velocity of the origin, and the angular velocity.
         let mut motions = vec![Wrench::<N>::zero(); self.bodies.len()];
         for motion in frame.motion.iter().flatten() {
-            let (at, velocity, spin) = (Vector::new(motion.at), Vector::new(motion.velocity), N::exact(motion.spin));
+            let (velocity, spin) = (Vector::new(motion.velocity), N::exact(motion.spin));
+            let at: Vector<N> = self.point(motion.body, motion.at);
             let at_origin = velocity.minus(&at.turned().times(&spin));
             motions[motion.body] = Wrench { force: at_origin, moment: spin };
         }
@@ -418,7 +433,7 @@ impl Certificate {
             }
         }
         for grip in &frame.grips {
-            for (wrench, limit) in grip_wrenches(grip).iter().zip(grip.limits) {
+            for (wrench, limit) in self.grip_wrenches(grip).iter().zip(grip.limits) {
                 let speed = wrench.power(&motions[grip.body]).magnitude();
                 match limit {
                     Some(limit) => power = power.minus(&speed.times(&N::exact(limit))),

@@ -87,7 +87,9 @@ pub(super) fn with_motion(bare: &FrameForm, assembly: &Assembly, motions: &[Moti
         .collect();
     let steps = if still { still_steps(bare, assembly, &motions, negligible) } else { Vec::new() };
     let forms = assembly.bodies.iter().zip(&motions).enumerate().map(|(number, (body, motion))| {
-        let grip = assembly.grips.iter().find(|grip| grip.body == number);
+        let grip = assembly.grips.iter().position(|grip| grip.body == number);
+        let form = grip.map(|grip| &bare.grips[grip]);
+        let grip = grip.map(|grip| &assembly.grips[grip]);
         let at = grip.map_or(body.centroid, |grip| grip.at);
         let mut velocity = motion.about(body.centroid, at);
         let mut spin = motion.spin;
@@ -96,7 +98,8 @@ pub(super) fn with_motion(bare: &FrameForm, assembly: &Assembly, motions: &[Moti
             velocity.y = if grip.limits.fy.is_finite() { velocity.y } else { 0.0 };
             spin = if grip.limits.torque.is_finite() { spin } else { 0.0 };
         }
-        MotionForm { body: bare.placed[number], at: [at.x, at.y], velocity: [velocity.x, velocity.y], spin }
+        let at = form.map_or(Some([at.x, at.y]), |form| form.at);
+        MotionForm { body: bare.placed[number], at, velocity: [velocity.x, velocity.y], spin }
     });
     let moving = forms.filter(|motion| motion.velocity != [0.0; 2] || motion.spin != 0.0);
     FrameForm { motion: Some(moving.collect()), still: steps, ..bare.clone() }
@@ -115,8 +118,11 @@ fn still_steps(bare: &FrameForm, assembly: &Assembly, motions: &[Motion], neglig
             let from = contact.from.map_or(Vector::zeros(), |from| velocity(from, *at));
             let relative = velocity(contact.on, *at) - from;
             let sliding = relative.dot(&contact.tangent()).abs();
-            if relative.dot(&contact.normal) - contact.friction * sliding <= negligible {
+            let opening = relative.dot(&contact.normal);
+            if opening <= negligible {
                 closed.push((3 * k + i, bodies.clone()));
+            }
+            if opening - contact.friction * sliding <= negligible {
                 slides &= sliding > negligible || contact.friction == 0.0;
             }
         }

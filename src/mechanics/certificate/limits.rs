@@ -2,7 +2,7 @@
 
 use super::stand::slack_forces;
 use super::{Certificate, Change, FrameForm, LimitForm, LoadForm};
-use crate::geometry::{Vector, quarter_turn};
+use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
 use crate::mechanics::analysis::{
     Cases, End, FrameAnalysis, Interval, LoadCapacity, MarginKind, Verdict, extremes, with_grip,
 };
@@ -57,7 +57,7 @@ impl Limits<'_> {
                 }
             }
         }
-        if let Some(capacity) = &self.found.capacity {
+        if let Some(capacity) = self.found.capacity_alone() {
             self.add_capacity(&mut proofs, capacity);
         }
         if let Some(placement) = self.found.placement_alone() {
@@ -104,9 +104,15 @@ impl Limits<'_> {
                 (Some(low), Some(high)) => high - low,
                 _ => f64::INFINITY,
             };
+            // The range of the kernel ends at 1.
+            let most = if name == MarginKind::Kernel.word() { 1.0 } else { f64::INFINITY };
             let name = format!("{name} {word} {value}");
-            let inside = |share: f64| change(value - outward * (share * size).min(width / 2.0));
-            let beyond = |share: f64| change(value + outward * share * size);
+            let inside = |share: f64| match share * size < width / 2.0 {
+                true => change(value - outward * share * size),
+                // Such a narrow interval is a value that people write, and rounding.
+                false => change(roundest(value - outward * width / 2.0, width / 2.0)),
+            };
+            let beyond = |share: f64| change((value + outward * share * size).min(most));
             proofs.extend(self.proof(&name, Verdict::Stable, &[], &inside));
             proofs.extend(self.proof(&name, Verdict::Unstable, mechanism, &beyond));
         }
@@ -123,12 +129,16 @@ impl Limits<'_> {
         let (Some(&at), false) = (capacity.at.first(), capacity.vertices.is_empty()) else { return };
         let without = capacity.robot.and_then(|robot| self.assembly.grips.iter().position(|grip| grip.robot == robot));
         let corners: Vec<Vector> = capacity.vertices.iter().map(|vertex| vertex.force).collect();
-        let size = corners.iter().map(|force| force.norm()).fold(LEAST_SIZE * self.assembly.heaviest_load(), f64::max);
+        let heaviest = Some(self.assembly.heaviest_load()).filter(|load| *load > 0.0).unwrap_or(1.0);
+        let size = corners.iter().map(|force| force.norm()).fold(LEAST_SIZE * heaviest, f64::max);
         let far = capacity.rays.iter().sum::<Vector>() * size;
         let middle = corners.iter().sum::<Vector>() / corners.len() as f64 + far;
         let loaded = |case: &Assembly, force: Vector, is_inside: bool| {
             let mut changed = if has_ranges { case.clone() } else { self.assembly.clone() };
             let own = &mut changed.bodies[body];
+            // A block that nothing else holds carries only what balances its loads exactly.
+            let is_rest = is_inside && (force + own.load.force).norm() <= 2.0 * DISTANCES[0] * size;
+            let force = if is_rest { -own.load.force } else { force };
             own.load = own.load.plus(load_about(own.centroid, at, force, 0.0));
             let mut all: Vec<[Option<f64>; 3]> = self.bare.grips.iter().map(|grip| grip.limits).collect();
             if let Some(grip) = without {
@@ -141,7 +151,8 @@ impl Limits<'_> {
             let torque = held.and_then(|forces| forces.last().copied()).map_or(0.0, |[.., torque]| torque);
             let own = &mut changed.bodies[body];
             own.load = own.load.plus(load_about(own.centroid, at, Vector::zeros(), torque));
-            let load = LoadForm { force: [force.x, force.y], at: [at.x, at.y], torque, fixed: false };
+            let point = (at != self.assembly.bodies[body].centroid).then_some([at.x, at.y]);
+            let load = LoadForm { force: [force.x, force.y], at: point, torque, fixed: false };
             let force = Some((self.bare.placed[body], load));
             let gravity = has_ranges.then_some([case.pull.x, case.pull.y]);
             let friction = capacity.ranges.friction.map(|[least, _]| least);
@@ -170,7 +181,7 @@ impl Limits<'_> {
 
     /// Rotates gravity by an angle in degrees.
     fn tilted(&self, degrees: f64) -> Changed {
-        let (sin, cos) = libm::sincos(degrees.to_radians());
+        let (sin, cos) = sin_cos_degrees(degrees);
         self.with_gravity(self.assembly.pull * cos + quarter_turn(self.assembly.pull) * sin)
     }
 
@@ -206,4 +217,10 @@ impl Limits<'_> {
         }
         last
     }
+}
+
+/// Returns the number with the fewest decimals that differs from `value` by at most `width`.
+fn roundest(value: f64, width: f64) -> f64 {
+    let mut rounded = (0..16).map(|decimals| format!("{value:.decimals$}").parse().unwrap_or(value));
+    rounded.find(|near: &f64| (near - value).abs() <= width).unwrap_or(value)
 }

@@ -11,13 +11,10 @@ impl Certificate {
         if body.ground || is_spent() {
             return Wrench::zero();
         }
-        // `form_errors` refuses bodies without area; an interval may be too wide to tell.
-        let centre = body.centre.map(Vector::new).or_else(|| centroid(body));
-        let centre = centre.unwrap_or_else(|| Vector::new([f64::NAN; 2]));
         let weight = Vector::new(frame.gravity).times(&N::exact(body.weight));
-        let mut sum = Wrench::of_force(&weight, &centre);
+        let mut sum = Wrench::of_force(&weight, &self.point(index, None));
         let mut add = |load: &LoadForm, factor: f64| {
-            let mut wrench: Wrench<N> = Wrench::of_force(&Vector::new(load.force), &Vector::new(load.at));
+            let mut wrench: Wrench<N> = Wrench::of_force(&Vector::new(load.force), &self.point(index, load.at));
             wrench.moment = wrench.moment.plus(&N::exact(load.torque));
             sum = sum.plus(&wrench.times(&N::exact(factor)));
         };
@@ -32,6 +29,14 @@ impl Certificate {
             sum.moment = sum.moment.plus(&moment.times(&N::exact(*sign)));
         }
         sum
+    }
+
+    /// Returns a point of a body: the given one, or else the one at which its weight acts.
+    pub(super) fn point<N: Number>(&self, index: usize, at: Option<Pair>) -> Vector<N> {
+        let body = &self.bodies[index];
+        let point = at.or(body.centre).map(Vector::new).or_else(|| centroid(body));
+        // `form_errors` refuses bodies without area; an interval may be too wide to tell.
+        point.unwrap_or_else(|| Vector::new([f64::NAN; 2]))
     }
 
     /// Returns each contact and grip of a frame as the bodies that it joins and the wrenches of its three components.
@@ -50,8 +55,16 @@ impl Certificate {
             ];
             Link { on, from: (!self.bodies[from].ground).then_some(from), wrenches }
         });
-        let grips = frame.grips.iter().map(|grip| Link { on: grip.body, from: None, wrenches: grip_wrenches(grip) });
+        let grips = frame.grips.iter();
+        let grips = grips.map(|grip| Link { on: grip.body, from: None, wrenches: self.grip_wrenches(grip) });
         contacts.chain(grips).collect()
+    }
+
+    /// Returns the wrenches of a grip's force x, force y and torque.
+    pub(super) fn grip_wrenches<N: Number>(&self, grip: &GripForm) -> [Wrench<N>; 3] {
+        let at = self.point(grip.body, grip.at);
+        let torque = Wrench { force: Vector::new([0.0; 2]), moment: N::exact(1.0) };
+        [Wrench::of_force(&Vector::new([1.0, 0.0]), &at), Wrench::of_force(&Vector::new([0.0, 1.0]), &at), torque]
     }
 }
 
@@ -119,11 +132,4 @@ pub(super) fn ends<N: Number>(contact: &ContactForm) -> [Vector<N>; 2] {
 /// The length of the normal, by which components are multiplied to print newtons.
 pub(super) fn length_of_normal(contact: &ContactForm) -> f64 {
     square_length(&normal_of(contact)).float().sqrt()
-}
-
-/// The wrenches of a grip's force x, force y and torque.
-pub(super) fn grip_wrenches<N: Number>(grip: &GripForm) -> [Wrench<N>; 3] {
-    let at = Vector::new(grip.at);
-    let torque = Wrench { force: Vector::new([0.0; 2]), moment: N::exact(1.0) };
-    [Wrench::of_force(&Vector::new([1.0, 0.0]), &at), Wrench::of_force(&Vector::new([0.0, 1.0]), &at), torque]
 }

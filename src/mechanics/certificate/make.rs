@@ -30,6 +30,16 @@ use crate::text::line;
 /// If the forces of the analysis have this slack at least, as a share of the heaviest load, they are corrected.
 const ROOM: f64 = 1e-6;
 
+/// Where the forces of a proof come from: none are needed, the analysis, a program for the middle of all forces, or one for
+/// the largest slack.
+#[derive(Clone, Copy)]
+enum Source {
+    None,
+    Given,
+    Inner,
+    Slack,
+}
+
 /// A frame with a proof, and what it misses.
 type Proved = (FrameForm, Vec<String>);
 
@@ -173,15 +183,26 @@ impl Certificate {
     /// fewer faults. If no order of single bodies corrects them, all bodies are corrected at once.
     pub(super) fn standing(&self, bare: &FrameForm, assembly: &Assembly, found: Option<&FrameAnalysis>) -> Proved {
         let (listed, slack) = (found.map(|found| listed_forces(assembly, found)), OnceCell::new());
-        let slack = || slack.get_or_init(|| slack_forces(assembly)).as_ref();
-        // The forces of the analysis need no further program. Often they leave room for the correction of each body.
-        let room = ROOM * assembly.heaviest_load();
-        let with_room = || self.with_forces(bare, assembly, listed.as_ref()?, Some(room));
-        let with_inner = || self.with_forces(bare, assembly, &found.and_then(|_| inner_forces(assembly))?, Some(room));
-        let with_slack = || self.with_forces(bare, assembly, slack()?, Some(f64::NEG_INFINITY));
-        let with_listed = || self.with_forces(bare, assembly, listed.as_ref()?, Some(f64::NEG_INFINITY));
-        let slack_at_once = || self.with_forces(bare, assembly, slack()?, None);
-        self.best(bare, &[&with_room, &with_inner, &with_slack, &with_listed, &slack_at_once])
+        let slack = || slack.get_or_init(|| slack_forces(assembly)).clone();
+        let forces = |source: Source| match source {
+            // Without loads, no forces are needed.
+            Source::None => (assembly.heaviest_load() == 0.0)
+                .then(|| vec![[0.0; 3]; assembly.contacts.len() + assembly.grips.len()]),
+            // The forces of the analysis need no further program. Often they leave room for the correction of each body.
+            Source::Given => listed.clone(),
+            Source::Inner => found.and_then(|_| inner_forces(assembly)),
+            Source::Slack => slack(),
+        };
+        let (room, any) = (Some(ROOM * assembly.heaviest_load()), Some(f64::NEG_INFINITY));
+        let ways = [
+            (Source::None, None),
+            (Source::Given, room),
+            (Source::Inner, room),
+            (Source::Slack, any),
+            (Source::Given, any),
+            (Source::Slack, None),
+        ];
+        self.best(bare, ways.into_iter().map(|(source, room)| self.with_forces(bare, assembly, &forces(source)?, room)))
     }
 
     /// Adds a motion to a frame that falls: the given one, or else one that opens more contacts and keeps those exactly
@@ -193,25 +214,27 @@ impl Certificate {
         mechanism: &[Motion],
         given_only: bool,
     ) -> Proved {
-        let (given, opening, fresh) = (motion_of_all(assembly, mechanism), OnceCell::new(), OnceCell::new());
-        let opening = || opening.get_or_init(|| opening_motion(assembly, mechanism)).as_ref();
+        let (opening, fresh) = (OnceCell::new(), OnceCell::new());
         let fresh = || fresh.get_or_init(|| mechanism_of(assembly));
-        let as_given = || Some(with_motion(bare, assembly, &given, false));
-        let given_still = || Some(with_motion(bare, assembly, &given, true));
-        let opened = || Some(with_motion(bare, assembly, opening()?, false));
-        let opened_still = || Some(with_motion(bare, assembly, opening()?, true));
-        let fresh_given = || Some(with_motion(bare, assembly, &motion_of_all(assembly, fresh()), false));
-        let fresh_still = || Some(with_motion(bare, assembly, &opening_motion(assembly, fresh())?, true));
-        if given_only {
-            return self.best(bare, &[&as_given, &given_still]);
-        }
-        self.best(bare, &[&as_given, &given_still, &opened, &opened_still, &fresh_given, &fresh_still])
+        let motion = |is_fresh: bool, opens: bool| match (is_fresh, opens) {
+            (true, true) => opening_motion(assembly, fresh()),
+            (true, false) => Some(motion_of_all(assembly, fresh())),
+            (false, true) => opening.get_or_init(|| opening_motion(assembly, mechanism)).clone(),
+            (false, false) => Some(motion_of_all(assembly, mechanism)),
+        };
+        let (given, all) = ([false, false], [[false, true], [true, false], [true, true]]);
+        let ways = [given].into_iter().chain(all).take(if given_only { 1 } else { 4 });
+        let ways = ways.flat_map(|own| [(own, false), (own, true)]);
+        let of = |([is_fresh, opens], still): ([bool; 2], bool)| {
+            Some(with_motion(bare, assembly, &motion(is_fresh, opens)?, still))
+        };
+        self.best(bare, ways.map(of))
     }
 
     /// Returns the first candidate that proves its verdict exactly, or the one with the fewest faults.
-    fn best(&self, bare: &FrameForm, candidates: &[&dyn Fn() -> Option<FrameForm>]) -> Proved {
+    fn best(&self, bare: &FrameForm, candidates: impl Iterator<Item = Option<FrameForm>>) -> Proved {
         let mut best: Option<Proved> = None;
-        for form in candidates.iter().filter_map(|candidate| candidate()) {
+        for form in candidates.flatten() {
             let faults = self.proof_faults(&form);
             let is_exact = faults.is_empty();
             if best.as_ref().is_none_or(|(_, fewest)| faults.len() < fewest.len()) {
@@ -270,7 +293,8 @@ fn frame_form(scene: &Scene, assembly: &Assembly, number: usize, verdict: Verdic
     let grips = assembly.grips.iter().map(|grip| GripForm {
         robot: scene.robots()[grip.robot.0].id.clone(),
         body: body_of(grip.body),
-        at: pair(grip.at),
+        // A grip at the centroid is at the exact one, which is no double.
+        at: (grip.at != assembly.bodies[grip.body].centroid).then(|| pair(grip.at)),
         limits: [grip.limits.fx, grip.limits.fy, grip.limits.torque].map(|v| v.is_finite().then_some(v)),
     });
     FrameForm {
@@ -317,7 +341,7 @@ fn bodies(scene: &Scene) -> Vec<BodyForm> {
             loads: loads
                 .map(|load| LoadForm {
                     force: [load.force.x, load.force.y],
-                    at: pair(load.at),
+                    at: (load.at != block.centroid).then(|| pair(load.at)),
                     torque: load.torque,
                     fixed: load.is_fixed,
                 })
@@ -353,6 +377,7 @@ fn contact_form(contact: &AssemblyContact, first_block: usize) -> ContactForm {
         points: contact.ends.iter().take(contact.points_in_use()).map(|end| pair(*end)).collect(),
         normal: (contact.kind == ContactKind::Corner).then_some([contact.normal.x, contact.normal.y]),
         friction: contact.friction,
+        fixed: !contact.is_factored,
         factor: None,
     }
 }

@@ -116,8 +116,9 @@ pub struct CircleForm {
 pub struct LoadForm {
     /// The force, N.
     pub force: Pair,
-    /// The point at which it acts, metres.
-    pub at: Pair,
+    /// The point at which it acts, metres; the point at which the weight acts, if it is not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<Pair>,
     /// The torque, N·m, anticlockwise positive.
     pub torque: f64,
     /// Whether the load factor does not multiply the load.
@@ -182,6 +183,9 @@ pub struct ContactForm {
     pub normal: Option<Pair>,
     /// The friction coefficient μ: |T| ≤ μ (N₁ + N₂).
     pub friction: f64,
+    /// Whether a factor on the friction leaves this coefficient as it is.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub fixed: bool,
     /// The factor on the friction coefficient in a changed frame.
     #[serde(skip)]
     pub(crate) factor: Option<f64>,
@@ -195,8 +199,9 @@ pub struct GripForm {
     pub robot: String,
     /// The index of the held body.
     pub body: usize,
-    /// The grip point, metres.
-    pub at: Pair,
+    /// The grip point, metres; the point at which the weight acts, if it is not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<Pair>,
     /// The largest |force x| and |force y| in newtons, and |torque| in N·m; `null` without a limit.
     pub limits: [Option<f64>; 3],
 }
@@ -239,8 +244,9 @@ pub struct ErrorsForm {
 pub struct MotionForm {
     /// The index of the body.
     pub body: usize,
-    /// A point that moves with the body, metres.
-    pub at: Pair,
+    /// A point that moves with the body, metres; the point at which the weight acts, if it is not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<Pair>,
     /// The velocity of this point.
     pub velocity: Pair,
     /// The angular velocity, anticlockwise positive.
@@ -290,7 +296,7 @@ pub struct Change {
     /// The friction coefficient of every contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
-    /// The factor on the friction coefficient of every contact.
+    /// The factor on the friction coefficient of every contact that is not `fixed`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_factor: Option<f64>,
     /// The safety kernel.
@@ -336,7 +342,7 @@ impl Change {
         };
         for contact in &mut changed.contacts {
             contact.friction = self.friction.unwrap_or(contact.friction);
-            contact.factor = self.friction_factor;
+            contact.factor = self.friction_factor.filter(|_| !contact.fixed);
         }
         for (grip, limits) in changed.grips.iter_mut().zip(self.grip_limits.iter().flatten()) {
             grip.limits = *limits;

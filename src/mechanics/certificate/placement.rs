@@ -109,6 +109,13 @@ impl Limits<'_> {
         }
         proofs.extend(last);
         let Some(at) = found.falls_at else { return };
+        // Errors that leave a joint no length are no errors, so a tolerance that ends with the joint has no proof beyond it.
+        let errors_beyond = errors(at * (1.0 + DISTANCES[0]), Vec::new());
+        let beyond =
+            FrameForm { verdict: Verdict::Unstable.word().to_owned(), errors: errors_beyond, ..self.bare.clone() };
+        if beyond.error_faults(&self.certificate.bodies).is_some() {
+            return;
+        }
         proofs.extend(self.proof(&name(at), Verdict::Unstable, &found.mechanism, &|share| {
             let size = at * (1.0 + share);
             let (signs, moved) = found.with_errors(self.scene, self.assembly, size);

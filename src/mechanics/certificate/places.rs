@@ -70,21 +70,13 @@ impl Certificate {
             && edges_at.iter().all(|(edges, sign)| separates(&normal, edges, *sign, &middle, &allowed));
         let faces_circle = contact.bodies.iter().zip([1, -1]).any(|(body, sign)| {
             let Some(circle) = self.bodies[*body].circle else { return false };
-            let inner = Vector::new(circle.centre).minus(&middle);
-            let along = normal.dot(&inner) * Rational::from(sign);
-            along > Rational::ZERO && square(&normal.cross(&inner)) <= Rational::exact(ANGLE_SQUARED) * square(&along)
+            agrees(&normal, &Vector::new(circle.centre).minus(&middle), sign)
         });
         is_corner
             || faces_circle
             || edges_at.iter().any(|(edges, sign)| {
                 edges.iter().any(|(_, [a, b])| {
-                    let inner = b.minus(a).turned();
-                    let along = normal.dot(&inner) * Rational::from(*sign);
-                    let across = square(&normal.cross(&inner));
-                    // An edge shorter than the distance bounds no angle; tan² = (10⁻³)² for the others.
-                    along > Rational::ZERO
-                        && across <= Rational::exact(ANGLE_SQUARED) * square(&along)
-                        && distance_squared(&middle, a, b) <= allowed
+                    agrees(&normal, &b.minus(a).turned(), *sign) && distance_squared(&middle, a, b) <= allowed
                 })
             })
     }
@@ -99,7 +91,6 @@ impl Certificate {
         let mut faults = Vec::new();
         let allowed = square(&Rational::exact(self.distance));
         let covered = square(&Rational::exact(2.0 * self.distance + self.shortest));
-        let shortest = square(&Rational::exact(self.shortest + 2.0 * self.distance));
         let ground = (0..self.bodies.len()).filter(|index| self.bodies[*index].ground);
         let present: Vec<usize> = ground.chain(frame.placed.iter().copied()).collect();
         let boxes: Vec<Aabb> = self.bodies.iter().map(BodyForm::bounds).collect();
@@ -141,7 +132,7 @@ impl Certificate {
                         let near = near.into_iter().filter(|(at, p, q)| distance_squared(at, p, q) <= allowed);
                         let bare: Vec<&Vector> = near.map(|(at, ..)| at).filter(|at| !is_covered(at)).collect();
                         let apart = bare.iter().flat_map(|p| bare.iter().map(|q| square_length(&p.minus(q)))).max();
-                        let is_corner = apart.as_ref().is_none_or(|apart| *apart <= shortest);
+                        let is_corner = apart.as_ref().is_none_or(|apart| *apart <= covered);
                         let is_tip = |at: &Vector| {
                             let is_near = |end: &Vector| square_length(&at.minus(end)) <= covered;
                             [[a, b], [c, d]].iter().all(|ends| ends.iter().any(|end| is_near(end)))
@@ -198,6 +189,13 @@ impl Certificate {
             })
         })
     }
+}
+
+/// True if a contact normal has the direction of an inner normal of the first body (sign 1), or of an outer one of the second
+/// body (sign −1).
+fn agrees(normal: &Vector, inner: &Vector, sign: i32) -> bool {
+    let along = normal.dot(inner) * Rational::from(sign);
+    along > Rational::ZERO && square(&normal.cross(inner)) <= Rational::exact(ANGLE_SQUARED) * square(&along)
 }
 
 /// True if both edges of a body that meet at a corner lie on its own side of the contact: along the normal for the first

@@ -170,10 +170,10 @@ pub(super) fn order(assembly: &Assembly, frame: &FrameForm, forces: &[[f64; 3]],
 
     let mut is_anchored = vec![false; count];
     let mut order: Vec<Step> = Vec::new();
-    let mut heap: BinaryHeap<(Slack, Vec<usize>, usize)> = BinaryHeap::new();
-    let reach = |heap: &mut BinaryHeap<(Slack, Vec<usize>, usize)>, link: usize, body: usize| {
+    let mut heap: BinaryHeap<(i64, Vec<usize>, usize)> = BinaryHeap::new();
+    let reach = |heap: &mut BinaryHeap<(i64, Vec<usize>, usize)>, link: usize, body: usize| {
         if let Some((slack, chosen)) = whole(link, body) {
-            heap.push((Slack(slack), chosen, body));
+            heap.push((ordered(slack.to_bits() as i64), chosen, body));
         }
     };
     for (body, links) in links_of.iter().enumerate().filter(|_| !at_once) {
@@ -186,7 +186,7 @@ pub(super) fn order(assembly: &Assembly, frame: &FrameForm, forces: &[[f64; 3]],
         let next = match heap.pop() {
             _ if at_once => break,
             Some((_, _, body)) if is_anchored[body] => continue,
-            Some((Slack(slack), chosen, body)) => Some((body, chosen, slack)),
+            Some((slack, chosen, body)) => Some((body, chosen, f64::from_bits(ordered(slack) as u64))),
             // No single contact leads on: combine the components of several.
             None => (0..count).filter(|body| !is_anchored[*body]).find_map(|body| {
                 let leading = links_of[body].iter().filter(|link| other(**link, body).is_none_or(|o| is_anchored[o]));
@@ -238,22 +238,9 @@ pub(super) fn order(assembly: &Assembly, frame: &FrameForm, forces: &[[f64; 3]],
     (order, least)
 }
 
-/// A slack that can be ordered.
-#[derive(Clone, Copy, PartialEq)]
-struct Slack(f64);
-
-impl Eq for Slack {}
-
-impl PartialOrd for Slack {
-    fn partial_cmp(&self, other: &Slack) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Slack {
-    fn cmp(&self, other: &Slack) -> std::cmp::Ordering {
-        self.0.total_cmp(&other.0)
-    }
+/// Returns whole numbers that are ordered as the doubles with these bits; applied twice, the bits (see [`f64::total_cmp`]).
+fn ordered(bits: i64) -> i64 {
+    bits ^ (((bits >> 63) as u64) >> 1) as i64
 }
 
 /// Two directions count as dependent if the sine of their angle is less than this.

@@ -41,6 +41,7 @@ fn joint(on: usize, from: Option<usize>, height: f64) -> AssemblyContact {
         points: [at(3.0), at(1.0)],
         normal: Vector::new(0.0, 1.0),
         friction: 0.5,
+        is_factored: true,
     }
 }
 

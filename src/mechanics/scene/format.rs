@@ -74,6 +74,11 @@ entry! {
         materials: Map<MaterialEntry>,
         /// Friction coefficients between pairs of materials.
         friction_pairs: Vec<FrictionPairEntry>,
+        /// Sets of joints with a name, by the direction of the joint, its two bodies or their materials. A joint belongs to
+        /// the first set that it meets. A set may give the friction coefficient of its joints.
+        joint_sets: Vec<JointSetEntry>,
+        /// The names of the joint sets whose coefficients the margin `friction_factor` multiplies. Default: all joints.
+        friction_factor_on: Vec<String>,
         /// The lattice. With a lattice, `at` of a body is in lattice coordinates, and outlines may be sets of cells.
         grid: bare Option<GridEntry>,
         /// Shapes that bodies can use as outlines, by name. The triangular lattice also has the built-in shapes up,
@@ -157,6 +162,12 @@ impl SceneFile {
     pub fn friction_pair(mut self, a: &str, b: &str, friction: f64) -> Self {
         let between = [a.into(), b.into()];
         self.friction_pairs.push(FrictionPairEntry { between, friction });
+        self
+    }
+
+    /// Adds a set of joints.
+    pub fn joint_set(mut self, set: JointSetEntry) -> Self {
+        self.joint_sets.push(set);
         self
     }
 
@@ -283,6 +294,36 @@ entry! {
         between: required [String; 2] as |r, node, at| two_names(r, node, at, "materials"),
         /// Friction coefficient at interfaces between bodies of these materials, at least 0.
         friction: required f64 [range(min = 0.0)],
+    }
+}
+
+entry! {
+    /// A set of joints. A joint meets the set if it meets all that the entry gives: of `direction`, `bodies` and
+    /// `materials`.
+    pub struct JointSetEntry {
+        /// Name of the set.
+        id: required String,
+        /// The direction of the joints: `bed` for joints that cross the direction of gravity by 45° or more, as the beds of
+        /// a wall do, `head` for all others.
+        direction: Option<JointDirection>,
+        /// Names of the two bodies, in any order: ids of blocks or of parts of the ground; `ground` is any part.
+        bodies: Option<[String; 2]> as |r, node, at| two_names(r, node, at, "bodies").map(Some),
+        /// Names of the materials of the two bodies, in any order.
+        materials: Option<[String; 2]> as |r, node, at| two_names(r, node, at, "materials").map(Some),
+        /// Friction coefficient of the joints of this set, at least 0. It replaces those of bodies, materials and pairs of
+        /// materials; contacts that the scene lists keep their own.
+        friction: Option<f64> [range(min = 0.0)],
+    }
+}
+
+word! {
+    /// The direction of a joint.
+    #[non_exhaustive]
+    pub enum JointDirection {
+        /// Gravity presses the joint, as in the beds of a wall.
+        Bed = "bed",
+        /// Gravity acts along the joint, as in the upright joints of a wall.
+        Head = "head",
     }
 }
 

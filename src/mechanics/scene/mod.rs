@@ -10,6 +10,7 @@ mod collision;
 mod finding;
 pub mod format;
 mod heal;
+mod joint_set;
 mod name;
 mod note;
 mod number;
@@ -38,6 +39,7 @@ pub(crate) use format::Setting;
 pub use format::schema;
 pub(crate) use heal::size;
 pub use heal::{Healed, ToleranceSource};
+pub use joint_set::{JointBody, JointSet};
 pub use note::{Note, NoteCode};
 pub(in crate::mechanics) use problem::digits;
 pub(crate) use problem::isolate;
@@ -108,6 +110,8 @@ pub struct Scene {
     /// Friction coefficients between pairs of materials, given by their numbers in [`Scene::materials`], the smaller
     /// first, in the order of these numbers.
     pub(crate) friction_pairs: Vec<([usize; 2], f64)>,
+    /// Sets of joints, in the file's order. A joint belongs to the first one that it meets.
+    pub(crate) joint_sets: Vec<JointSet>,
     /// The contacts that the file lists. If the list is not empty, contacts are not computed from the outlines.
     pub(crate) contacts: Vec<ListedContact>,
     /// Which corners that touch carry force. All if the file lists its contacts.
@@ -297,10 +301,30 @@ impl Scene {
         }
     }
 
-    /// Returns the friction coefficient between two bodies: the coefficient of the pair of their materials if the scene
-    /// gives one, otherwise the smaller of the two bodies' own coefficients.
-    pub fn friction_between(&self, a: BodyId, b: BodyId) -> f64 {
-        let (a, b) = (self.body(a), self.body(b));
+    /// Returns the set of joints to which the joint of two bodies with this normal belongs, if the scene has such a set.
+    pub fn joint_set(&self, bodies: [BodyId; 2], normal: Vector) -> Option<&JointSet> {
+        self.joint_sets.iter().find(|set| set.contains(self, bodies, normal))
+    }
+
+    /// True if the margin `friction_factor` multiplies the coefficient of this joint: all joints, or those of the sets that
+    /// the scene names for it.
+    pub(crate) fn has_factored_friction(&self, bodies: [BodyId; 2], normal: Vector) -> bool {
+        self.factored_sets().next().is_none() || self.joint_set(bodies, normal).is_some_and(|set| set.is_factored)
+    }
+
+    /// Returns the names of the sets of joints whose friction the margin `friction_factor` multiplies; none if it multiplies
+    /// that of all joints.
+    pub(crate) fn factored_sets(&self) -> impl Iterator<Item = &str> {
+        self.joint_sets.iter().filter(|set| set.is_factored).map(|set| set.id.as_str())
+    }
+
+    /// Returns the friction coefficient at the joint of two bodies with this normal: that of the set of joints to which it
+    /// belongs, otherwise that of the pair of their materials, otherwise the smaller of the two bodies' own coefficients.
+    pub fn friction_at(&self, bodies: [BodyId; 2], normal: Vector) -> f64 {
+        if let Some(friction) = self.joint_set(bodies, normal).and_then(|set| set.friction) {
+            return friction;
+        }
+        let [a, b] = bodies.map(|body| self.body(body));
         if let (Some(m), Some(n)) = (a.material, b.material) {
             let wanted = [m.min(n), m.max(n)];
             if let Ok(pair) = self.friction_pairs.binary_search_by_key(&wanted, |pair| pair.0) {

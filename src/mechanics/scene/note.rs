@@ -172,6 +172,9 @@ impl Notes<'_> {
             }
         };
         check(&top, file.friction);
+        for (i, set) in file.joint_sets.iter().enumerate() {
+            check(&top.key("joint_sets").index(i), set.friction);
+        }
         for (name, material) in &file.materials.0 {
             check(&top.key("materials").key(name), material.friction);
         }

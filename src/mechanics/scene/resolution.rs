@@ -157,6 +157,7 @@ impl<'f> Resolution<'f> {
         self.check_ids(findings);
         self.check_ground_ids(findings);
         let friction_pairs = self.friction_pairs(findings);
+        let joint_sets = self.joint_sets(findings, &names.blocks, &ground);
         let centroids: Vec<Point> =
             (blocks.iter()).map(|b| b.as_ref().map_or(Point::origin(), |b| b.centroid)).collect();
         let robots = self.robots(findings, &names.blocks, &centroids);
@@ -195,6 +196,7 @@ impl<'f> Resolution<'f> {
             vehicle,
             materials: materials.map(|m| Material { name: m.0.clone() }).collect(),
             friction_pairs,
+            joint_sets,
             // A listed contact is a single point, so it transmits force in the same way as a corner contact.
             corner_contacts: match self.file.corner_contacts {
                 _ if !contacts.is_empty() => CornerContacts::ALL,

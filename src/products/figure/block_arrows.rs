@@ -58,6 +58,9 @@ impl Figure for BlockArrows {
             let words = format!("{least} to {most}: {what}");
             canvas.explain(Key::new(65, words, symbol, canvas.mm(COLOURS_LENGTH)));
         }
+        if !canvas.look.is_strip && !canvas.options.printed() {
+            joint_forces::collapse(canvas);
+        }
         let largest = largest(canvas);
         if largest > 0.0 {
             arrows(canvas, largest);
@@ -67,9 +70,6 @@ impl Figure for BlockArrows {
         joint_forces::missing(canvas);
         if !canvas.found().failures.is_empty() {
             canvas.note(75, "arrows and colours show the balance with the missing forces");
-        }
-        if !canvas.look.is_strip && !canvas.options.printed() {
-            joint_forces::collapse(canvas);
         }
         if largest > 0.0 {
             scale(canvas, largest);

@@ -8,10 +8,11 @@ use std::rc::Rc;
 
 use super::design::{ArrowSize, Key, Layer, Look, Mark, around, colour, unit};
 use super::displacement::{Course, Displacement};
+use super::moving::Moving;
 use super::option::{ArrowScale, Options};
 use super::placing::{self, Label, Surroundings};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, Motion, ThrustStates};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, ThrustState, ThrustStates};
 use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
 use crate::pictures::drawing::style::ForceMarks;
 use crate::pictures::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
@@ -28,8 +29,10 @@ const JOINED_PATHS: usize = 64;
 pub(crate) struct Shared {
     /// The paths of the blocks in the collapses that the figure shows.
     pub courses: OnceCell<Vec<Course>>,
-    /// The value of the parameter of the options at which the frame begins to fall, and the motion there.
-    pub edge: OnceCell<Option<(f64, Vec<Motion>)>>,
+    /// The motion that the figure shows of the frame.
+    pub moving: OnceCell<Moving>,
+    /// The forces of the largest kernel.
+    pub central: OnceCell<Option<ThrustState>>,
     /// The extremes between which the forces of the frame may lie.
     pub thrust: OnceCell<ThrustStates>,
 }
@@ -46,6 +49,8 @@ pub(crate) struct Canvas<'a> {
     pub look: Look,
     /// The length of a force in the one scale of the figure, pixels per newton.
     pub scale: f64,
+    /// Whether loads and missing forces have this scale too.
+    pub shares_scale: bool,
     /// The blocks of all frames, or the part of the scene that is shown, pixels.
     pub structure: PageRect,
     /// The fill of each placed block, in placing order, with the meaning of its colour in words; empty for plain blocks.
@@ -57,6 +62,8 @@ pub(crate) struct Canvas<'a> {
     pub displaced: Vec<Option<Displacement>>,
     /// The part of the ground that is drawn where it moves to, and its displacement.
     pub moved_ground: Option<(usize, Displacement)>,
+    /// The x coordinate of a line between two drawings, which no label crosses, pixels.
+    pub gutter: Option<f64>,
     /// The words after the verdict, if the figure finds them while it draws.
     pub words: Option<Vec<String>>,
     /// The blocks that these words mention.
@@ -103,11 +110,13 @@ impl<'a> Canvas<'a> {
             camera,
             look,
             scale,
+            shares_scale: false,
             structure,
             fills,
             window,
             displaced,
             moved_ground: None,
+            gutter: None,
             words,
             mentioned,
             marks,
@@ -258,6 +267,12 @@ impl<'a> Canvas<'a> {
         around(points.chain(corners(self.structure))).unwrap_or(self.structure)
     }
 
+    /// Returns the right edge of all marks that are already drawn, pixels.
+    pub fn extent_of_marks(&self) -> f64 {
+        let points = self.marks.iter().flat_map(|mark| &mark.shapes).flat_map(|path| path.outline.points());
+        points.map(|p| p.x).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Asks for a label. Labels are placed when the picture is finished.
     pub fn label(&mut self, label: Label) {
         self.labels.push(label);
@@ -280,7 +295,8 @@ impl<'a> Canvas<'a> {
             };
             labels.retain(|label| label.anchors.iter().any(seen) || label.fixed.as_ref().is_some_and(beside));
         }
-        let surroundings = Surroundings::new(&self.marks, self.structure, !self.fills.is_empty(), self.look);
+        let mut surroundings = Surroundings::new(&self.marks, self.structure, !self.fills.is_empty(), self.look);
+        surroundings.gutter = self.gutter;
         let placed = placing::labels(labels, &surroundings, self.look, self.options);
         let shown = |mark: &&Mark| self.window.is_none() || mark.layer == Layer::Around;
         let points = self.marks.iter().filter(shown).flat_map(|mark| &mark.shapes);

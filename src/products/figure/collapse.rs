@@ -1,10 +1,10 @@
-//! [`reason`]: describes a mechanism in words: which blocks turn or slide, and how many hinges there are.
+//! [`sentence`]: describes a mechanism in words: which blocks turn or slide, and how many hinges there are.
 
 use core::cell::RefCell;
 use std::collections::BTreeSet;
 
 use super::fall::{Fall, Joint};
-use crate::mechanics::analysis::{Analysis, Motion, Verdict};
+use crate::mechanics::analysis::Motion;
 use crate::mechanics::scene::{BlockId, BodyId};
 use crate::pictures::drawing::text::NO_BREAK;
 use crate::products::wording::number::{counted, listed};
@@ -15,18 +15,8 @@ const MAX_NAMED_BLOCKS: usize = 4;
 /// the body slides or falls. A grip point counts as at rest if its speed is below this fraction.
 const ROTATION_TOL: f64 = 0.02;
 
-/// Returns the words after the verdict in a figure of a mechanism: how the frame collapses, or why there is no
-/// mechanism.
-pub(crate) fn reason(analysis: &Analysis, frame: usize) -> String {
-    let frame_analysis = &analysis.frames[frame];
-    match frame_analysis.verdict {
-        Verdict::Stable => "there is no mechanism".into(),
-        Verdict::Undecided => format!("no mechanism is proved: {}", frame_analysis.doubt()),
-        Verdict::Unstable => collapse(&Fall::of(analysis, frame)),
-    }
-}
-
-fn collapse(fall: &Fall<'_>) -> String {
+/// Returns the words after the verdict in a figure of a mechanism: how the blocks move.
+pub(crate) fn sentence(fall: &Fall<'_>) -> String {
     let bodies = bodies(fall);
     if let [body] = &bodies[..] {
         return body.sentence.clone();

@@ -86,11 +86,13 @@ pub(crate) struct Key {
     pub symbol: Vec<Path>,
     /// The width of the symbol, pixels.
     pub width: f64,
+    /// Numbers below the symbol, each with its place along it, pixels.
+    pub ticks: Vec<(f64, &'static str)>,
 }
 
 impl Key {
     pub fn new(rank: u8, words: impl Into<String>, symbol: Vec<Path>, width: f64) -> Rc<Key> {
-        Rc::new(Key { rank, words: words.into(), symbol, width })
+        Rc::new(Key { rank, words: words.into(), symbol, width, ticks: Vec::new() })
     }
 
     /// The entry for a line, of which it shows a piece of this length, pixels.

@@ -42,6 +42,8 @@ const MAX_TESTED_BLOCKS: usize = 500;
 /// Largest allowed overlap of two bodies, as a fraction of the area of the smaller body. An overlap of 1 % is already
 /// visible.
 const MAX_OVERLAP: f64 = 0.004;
+/// The same for the ground, whose line is drawn on top of blocks: their corners may not show below it.
+const MAX_GROUND_OVERLAP: f64 = 5e-4;
 
 /// A rotation of a block about a point, followed by a translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -255,7 +257,11 @@ fn overlapping(bodies: &[Solid<'_>], displaced: &[Option<Displacement>]) -> Vec<
         let near = placed[number + 1..].iter().take_while(|other| other.2.min.x <= bounds.max.x);
         for (b, other, others) in near {
             // Two bodies that move together, or that are both at rest, cannot begin to overlap.
-            if motion(*a) != motion(*b) && bounds.intersects(*others) && share(one, other) > MAX_OVERLAP {
+            if motion(*a) != motion(*b) && bounds.intersects(*others) {
+                let most = if a.is_some() && b.is_some() { MAX_OVERLAP } else { MAX_GROUND_OVERLAP };
+                if share(one, other) <= most {
+                    continue;
+                }
                 blocks.extend([a, b].into_iter().flatten());
             }
         }

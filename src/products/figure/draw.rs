@@ -2,12 +2,13 @@
 
 use std::borrow::Cow;
 
-use super::influence;
 use super::kind::Kind;
-use super::option::Options;
+use super::mechanism::vehicle;
+use super::moving::Moving;
+use super::option::{At, Options};
 use super::sheet;
 use super::symmetric::symmetric;
-use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::Drawing;
 
@@ -38,7 +39,7 @@ pub(crate) fn check_panels(scene: &Scene, remedy: &str) -> Result<(), String> {
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
     let options = kind.options(&analysis.scene, options);
-    sheet::page(&shown(analysis, kind), kind.drawer(&options), &options)
+    sheet::page(&shown(analysis, kind, &options), kind.drawer(&options), &options)
 }
 
 /// Draws the forces of an analysis. Each frame has a panel with its marks, its caption and its verdict.
@@ -82,8 +83,8 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
 /// Units: all times are in seconds.
 pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) -> Vec<(Drawing, f64)> {
     let options = kind.options(&analysis.scene, options);
-    if kind == Kind::Influence {
-        return influence::film(&shown(analysis, kind), &options, seconds);
+    if kind == Kind::Mechanism && options.at == Some(At::Vehicle) {
+        return vehicle::film(&shown(analysis, kind, &options), &options, seconds);
     }
     if !kind.about().needs_elementary_mechanisms {
         let pages = frame_pages(analysis, kind, &options, &all_frames(analysis)).into_iter();
@@ -92,8 +93,9 @@ pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) ->
     let mut steps: Vec<(usize, f64)> = Vec::new();
     let mut times = Vec::new();
     let count = (seconds / MOTION_FRAME_SECONDS).round().clamp(MOTION_STEP_LIMITS.0, MOTION_STEP_LIMITS.1) as u32;
-    for (frame, frame_analysis) in analysis.frames.iter().enumerate() {
-        if frame_analysis.verdict != Verdict::Unstable {
+    let moves = |frame| !Moving::new(analysis, frame, &options).motions.is_empty();
+    for frame in 0..analysis.frames.len() {
+        if !moves(frame) {
             steps.push((frame, 1.0));
             times.push(seconds);
             continue;
@@ -116,7 +118,8 @@ fn eased(time: f64) -> f64 {
 
 /// Draws the panels of [`draw`] as separate pages, one for each frame. All pages have the same size and scale.
 pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
-    frame_pages(&shown(analysis, kind), kind, &kind.options(&analysis.scene, options), &all_frames(analysis))
+    let options = kind.options(&analysis.scene, options);
+    frame_pages(&shown(analysis, kind, &options), kind, &options, &all_frames(analysis))
 }
 
 /// Like [`panels`], but only for the frames with these indices, counted from 0. Frames that do not exist are skipped.
@@ -124,14 +127,14 @@ pub fn panels_of(analysis: &Analysis, kind: Kind, options: &Options, frames: &[u
     let options = kind.options(&analysis.scene, options);
     let count = analysis.frames.len();
     let existing: Vec<usize> = frames.iter().copied().filter(|frame| *frame < count).collect();
-    frame_pages(&shown(analysis, kind), kind, &options, &existing)
+    frame_pages(&shown(analysis, kind, &options), kind, &options, &existing)
 }
 
 /// Draws the figure of [`draw`] on several pages at the same scale, each with a title and a legend. The height of a
 /// page is at most `max_ratio` times its width, unless a single row of panels is higher.
 pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64) -> Vec<Drawing> {
     let options = kind.options(&analysis.scene, options);
-    sheet::split(&shown(analysis, kind), kind.drawer(&options), &options, max_ratio)
+    sheet::split(&shown(analysis, kind, &options), kind.drawer(&options), &options, max_ratio)
 }
 
 /// Returns lower bounds for the width and the height of the page of [`draw`], in pixels. The function draws nothing, so
@@ -147,8 +150,9 @@ fn all_frames(analysis: &Analysis) -> Vec<usize> {
 
 /// Returns the analysis that a kind of figure shows: with elementary mechanisms if the kind needs them, without the axles
 /// of a vehicle if the kind draws them, otherwise unchanged.
-fn shown(analysis: &Analysis, kind: Kind) -> Cow<'_, Analysis> {
-    if kind == Kind::Influence && analysis.frames.iter().any(|found| found.under_vehicle.is_some()) {
+fn shown<'a>(analysis: &'a Analysis, kind: Kind, options: &Options) -> Cow<'a, Analysis> {
+    let drives = kind == Kind::Mechanism && options.at == Some(At::Vehicle);
+    if drives && analysis.frames.iter().any(|found| found.under_vehicle.is_some()) {
         return Cow::Owned(analysis.without_axles());
     }
     if kind.about().needs_elementary_mechanisms { Cow::Owned(analysis.elementary()) } else { Cow::Borrowed(analysis) }

@@ -48,6 +48,8 @@ pub(crate) struct Joint {
     pub slip: f64,
     /// Speed at which a sliding joint opens; 0 if the motion is along the joint.
     pub lift: f64,
+    /// The larger relative speed of the two bodies at the ends of the interface.
+    pub speed: f64,
 }
 
 impl<'a> Fall<'a> {
@@ -211,6 +213,7 @@ fn joint(contact: &Contact, relative: [Vector; 2], (turning, friction): (f64, f6
         at: touch.unwrap_or(interface.middle()),
         slip,
         lift,
+        speed: relative.map(|v| v.norm()).into_iter().fold(0.0, f64::max),
     })
 }
 

@@ -1,7 +1,7 @@
 //! [`Fills`]: the colours of blocks, and the quantity that these colours show.
 //!
-//! The user [chooses](Fill) the quantity: amplitudes, stresses or friction. The amplitude of a block is the larger of
-//! its weight and its largest normal force. The legend names the quantity, which is the same for all blocks. Only the
+//! The user [chooses](Fill) amplitudes, or none. The amplitude of a block is the larger of its weight and its largest
+//! normal force. The legend names the quantity, which is the same for all blocks. Only the
 //! rule of the thesis has two quantities. A block that a robot holds shows the used fraction of the robot's force
 //! limits. Any other block shows its amplitude as a fraction of the smallest force limit of all robots. If no robot has
 //! a force limit, every block shows its amplitude as a fraction of the largest amplitude.
@@ -20,10 +20,6 @@ pub(crate) enum FillScale {
     Limit(f64),
     /// The largest amplitude in the figure, N.
     Largest(f64),
-    /// The largest stress in the figure, N/m², and the thickness for which it is computed, m.
-    Stress(f64, f64),
-    /// The used fraction of the available friction.
-    Friction,
     /// No quantity: blocks have one plain colour.
     Plain,
 }
@@ -51,9 +47,9 @@ impl Fills {
         };
         let (scale, shares) = match rule {
             Fill::Amplitude => to_largest(each(amplitudes), FillScale::Largest),
-            Fill::Stress => to_largest(each(stresses), |largest| FillScale::Stress(largest, scene.thickness)),
-            Fill::Friction => (FillScale::Friction, each(friction)),
-            Fill::None => (FillScale::Plain, each(|_, frame, _| vec![0.0; frame.placed.len()])),
+            Fill::None | Fill::Stress | Fill::Friction => {
+                (FillScale::Plain, each(|_, frame, _| vec![0.0; frame.placed.len()]))
+            }
             Fill::Source => source(analysis, each(amplitudes)),
         };
         Fills { scale, shares, rule, units: scene.units }
@@ -92,14 +88,6 @@ impl Fills {
             FillScale::Largest(largest) => {
                 (ends(quantity(largest, self.units.force())), "weight or largest normal force".into())
             }
-            FillScale::Stress(largest, thickness) => {
-                let thickness = quantity(thickness, self.units.length());
-                let what = format!("largest mean pressure on a joint of a block; thickness {thickness}");
-                (ends(quantity(largest, self.units.stress())), what)
-            }
-            FillScale::Friction => {
-                (ends("100 %".into()), "largest used share of the available friction at a joint of a block".into())
-            }
             FillScale::Plain => (ends(String::new()), String::new()),
         }
     }
@@ -115,12 +103,6 @@ impl Fills {
             ),
             FillScale::Largest(largest) => {
                 format!("colour: {}", quantity(share * largest, self.units.force()))
-            }
-            FillScale::Stress(largest, _) => {
-                format!("colour: {}", quantity(share * largest, self.units.stress()))
-            }
-            FillScale::Friction => {
-                format!("colour: {:.1} % of the available friction used", 100.0 * share)
             }
             FillScale::Plain => String::new(),
         }
@@ -212,21 +194,4 @@ fn amplitudes(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> V
     let normals = largest(scene, frame, frame_analysis, Contact::normal_force);
     let weights = frame.placed.iter().map(|b| scene.blocks[b.0].weight);
     normals.into_iter().zip(weights).map(|(n, w)| n.max(w)).collect()
-}
-
-/// Returns, for each placed block, the largest mean normal stress on its interfaces, N/m². The stress is normal force /
-/// (length × thickness). A corner contact has no area, so its stress counts as 0.
-fn stresses(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
-    largest(scene, frame, frame_analysis, |contact| {
-        let area = contact.interface.length() * scene.thickness;
-        if area > 0.0 { contact.normal_force() / area } else { 0.0 }
-    })
-}
-
-/// Returns, for each placed block, the largest used fraction of the available friction on its interfaces. It is 0
-/// without normal forces.
-fn friction(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
-    largest(scene, frame, frame_analysis, |contact| {
-        if contact.normal_force() > 0.0 { contact.friction_used.clamp(0.0, 1.0) } else { 0.0 }
-    })
 }

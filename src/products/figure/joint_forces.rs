@@ -2,7 +2,6 @@
 //! of the resultant. Its length is the force, in one scale for the whole figure. Small forces are ticks, and none is left
 //! out. Missing forces are red, and the hinges and slips are those of the collapse that the line of the verdict names.
 
-use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -10,19 +9,20 @@ use super::arrow::round_above;
 use super::canvas::Canvas;
 use super::description::{described, word};
 use super::design::{ArrowSize, Key, Layer, Look, Mark, along, direction};
-use super::gives::{self, Gives, How};
+use super::gives::{self, How, Place};
+use super::moving::Moving;
 use super::option::{Fill, ForceStyle, Normalisation, Options};
 use super::panel::{About, Figure, View};
 use super::placing::Label;
 use super::{load, stage};
-use crate::geometry::{Point, Vector, quarter_turn};
-use crate::mechanics::analysis::{ActingForce, Contact, Failure, FrameAnalysis, Motion};
+use crate::geometry::quarter_turn;
+use crate::mechanics::analysis::{ActingForce, Contact, Failure, FrameAnalysis, MarginKind};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::pictures::drawing::difference::lightness;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Theme};
 use crate::products::wording::failure::pair;
-use crate::products::wording::margin::{Governing, governing};
-use crate::products::wording::number::{force, quantity, round_below_in};
+use crate::products::wording::margin::governing;
+use crate::products::wording::number::{digits, force, quantity, round_below_in, three_down, three_up};
 
 /// A force below this share of the largest is numerical noise and has no mark.
 const NOISE: f64 = 1e-6;
@@ -30,9 +30,11 @@ const NOISE: f64 = 1e-6;
 const ORDER_STEP: f64 = 1e-3;
 /// Half the length of a tick, mm: the least half length of a mark.
 const TICK: f64 = 0.45;
+/// If all missing forces are smaller than this share of the largest force, they are drawn larger.
+const ENLARGED: f64 = 0.05;
 /// The legend explains ticks if there are at least this many.
 const EXPLAINED_TICKS: usize = 3;
-/// If a collapse has more hinges and slips than this, none is drawn; the figure of the mechanism shows them.
+/// If a collapse has more hinges and slips than this, the fastest are drawn; the figure of the mechanism shows all.
 const MAX_COLLAPSE_MARKS: usize = 6;
 /// If more blocks than this are in a frame, only the largest force has an amount, even on request.
 const MAX_AMOUNT_BLOCKS: usize = 60;
@@ -48,9 +50,13 @@ impl Figure for JointForces {
     }
 
     fn draw(&self, canvas: &mut Canvas<'_>) {
+        canvas.shares_scale = true;
         stage::ground(canvas);
         stage::blocks(canvas);
         stage::listed_contacts(canvas);
+        if !canvas.look.is_strip {
+            collapse(canvas);
+        }
         joints(canvas);
         if !(canvas.look.large && weights(canvas)) {
             canvas.note(70, "weights not drawn");
@@ -58,9 +64,6 @@ impl Figure for JointForces {
         stage::robots(canvas);
         load::loads(canvas);
         missing(canvas);
-        if !canvas.look.is_strip {
-            collapse(canvas);
-        }
         stage::names(canvas);
     }
 
@@ -322,24 +325,53 @@ pub(crate) fn missing(canvas: &mut Canvas<'_>) {
         let head = (share * look.mm(sizes.1), look.mm(sizes.2).min(0.62 * length));
         ArrowSize { length, shaft: share * look.mm(sizes.0), head }
     };
-    // One scale for all panels: that of the other forces, unless the largest missing force would be too short. A small
-    // missing force then never looks as large as a large one.
+    // One scale for all panels: that of the other forces. If even the largest missing force would be too short, all are
+    // hollow, and drawn larger by a factor that stands at them.
     let all = canvas.analysis.frames.iter().flat_map(|frame| &frame.failures);
-    let largest = all.map(|failure| failure.force().norm()).fold(0.0, f64::max);
-    let scale = if canvas.has_one_scale() { canvas.scale } else { 0.0 };
-    let scale = scale.max(look.mm(if large { 6.0 } else { 5.0 }) / largest.max(f64::MIN_POSITIVE));
+    let largest = all.map(|failure| failure.force().norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let own_scale = load::joint_scale(canvas);
+    let common = own_scale.unwrap_or(if canvas.has_one_scale() { canvas.scale } else { 0.0 });
+    let visible = look.mm(if large { 6.0 } else { 5.0 }) / largest;
+    let is_tiny = largest < ENLARGED * self::largest(&canvas.analysis.frames);
+    let enlarged = own_scale.filter(|own| is_tiny && own * largest < look.mm(load::STUB));
+    let enlarged = enlarged.map(|own| two_digits(visible / own));
+    let factor = enlarged.map(digits);
+    let scale = match (own_scale, enlarged) {
+        (Some(own), factor) => own * factor.unwrap_or(1.0),
+        (None, _) => common.max(visible),
+    };
     let stated = round_below_in(largest.min(look.mm(10.0) / scale), scene.units.force());
-    let states_scale = largest > 0.0 && !canvas.options.printed();
-    let width = if states_scale { scale * stated } else { look.mm(4.4) };
-    let words = if states_scale { format!("{} missing", canvas.newtons(stated)) } else { "missing".into() };
-    let symbol = Path::filled(arrow(width).outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink);
+    let states_scale = largest > f64::MIN_POSITIVE && !canvas.options.printed();
+    let width = if states_scale { (scale * stated).max(look.mm(2.0)) } else { look.mm(4.4) };
+    let is_stub = |norm: f64| own_scale.is_some_and(|own| own * norm < look.mm(load::STUB));
+    let mut amounts = canvas.analysis.frames.iter().flat_map(|frame| &frame.failures).map(|f| f.force().norm());
+    let has_stub = amounts.any(|norm| norm > 0.0 && is_stub(norm));
+    let words = match &factor {
+        Some(factor) => format!("{} missing, drawn × {factor}", canvas.newtons(stated)),
+        None if has_stub => {
+            let units = scene.units.force();
+            let least = units.size * round_above(units.value_from_si(look.mm(load::STUB) / canvas.scale));
+            let stated = if is_stub(largest) { String::new() } else { canvas.newtons(stated) + " " };
+            format!("{stated}missing; stub: under {}", quantity(least, units))
+        }
+        None if states_scale => format!("{} missing", canvas.newtons(stated)),
+        None => "missing".into(),
+    };
+    // A force that would be too short has a hollow arrow of the least length.
+    let is_hollow = |norm: f64| enlarged.is_some() || is_stub(norm);
+    let (theme, edge) = (canvas.theme(), canvas.dashes(ink, 0.24, [0.7, 0.35]));
+    let painted = |outline: Outline, norm: f64| match is_hollow(norm) {
+        true => Path::filled(outline, theme.page).with_stroke(edge.clone()),
+        false => Path::filled(outline, ink).cased(theme.page, look.mm(0.15)),
+    };
+    let symbol = painted(arrow(width).outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), stated);
     let key = Key::new(50, words, vec![symbol], width);
     let mut order: Vec<&Failure> = found.failures.iter().collect();
     order.sort_by(|a, b| b.amount().total_cmp(&a.amount()));
     for (number, failure) in order.into_iter().enumerate() {
         let (at, missing) = (canvas.place(failure.at()), failure.force());
         let norm = missing.norm();
-        let cased = |outline: Outline| Path::filled(outline, ink).cased(canvas.theme().page, look.mm(0.15));
+        let cased = |outline: Outline| painted(outline, norm);
         let (what, shapes, anchors, amount) = if let Failure::RobotTorque { torque, .. } = *failure {
             let amount = quantity(torque.abs(), scene.units.torque());
             let shapes = stage::torque(canvas, at, torque, (3.1, 0.6), ink);
@@ -347,7 +379,8 @@ pub(crate) fn missing(canvas: &mut Canvas<'_>) {
             (stage::turning(torque, amount.clone()), shapes, anchors.to_vec(), amount)
         } else if norm > 0.0 {
             let u = direction(missing);
-            let length = (scale * norm).clamp(look.mm(2.0), look.mm(10.0));
+            let most = if own_scale.is_some() { f64::INFINITY } else { look.mm(10.0) };
+            let length = (scale * norm).min(most).max(look.mm(if own_scale.is_some() { load::STUB } else { 2.0 }));
             let size = arrow(length);
             let shapes = match failure {
                 _ if canvas.options.printed() => Vec::new(),
@@ -363,7 +396,11 @@ pub(crate) fn missing(canvas: &mut Canvas<'_>) {
             };
             let anchors = [-3.0, 3.0, -1.5, 1.5].map(|d| along(at, u, look.mm(d), 0.0));
             let anchors = std::iter::once(at).chain(anchors).collect();
-            (force(missing, scene.units), shapes, anchors, canvas.newtons(norm))
+            let words = match &factor {
+                Some(factor) if number == 0 => format!("{}, drawn × {factor}", canvas.newtons(norm)),
+                _ => canvas.newtons(norm),
+            };
+            (force(missing, scene.units), shapes, anchors, words)
         } else {
             continue;
         };
@@ -373,6 +410,12 @@ pub(crate) fn missing(canvas: &mut Canvas<'_>) {
             stage::amount(canvas, amount, ink, (anchors, 1), None);
         }
     }
+}
+
+/// Rounds a positive number to two significant digits.
+fn two_digits(number: f64) -> f64 {
+    let tens = libm::pow(10.0, libm::floor(libm::log10(number)) - 1.0);
+    (number / tens).round() * tens
 }
 
 /// Returns the two half arrows of a friction along a joint: the first on the side to which `normal` points, along `u`.
@@ -399,57 +442,43 @@ fn named(scene: &Scene, failure: &Failure) -> String {
     failure.acting().first().map_or(String::new(), name)
 }
 
-/// Draws the hinges and slips of the collapse that the line of the verdict names.
+/// Draws the hinges and slips of the collapse that the line of the verdict names, below the forces and beside them.
 pub(crate) fn collapse(canvas: &mut Canvas<'_>) {
-    let found = canvas.found();
-    let governing = governing(canvas.scene(), canvas.number, found);
-    // The marks of a frame that stands belong to the margin that the line names first.
-    let at = if governing.at.is_empty() { String::new() } else { format!(" at {}", governing.at) };
-    let joints = giving(canvas.scene(), found, &governing);
-    if joints.len() <= MAX_COLLAPSE_MARKS {
-        // A force is longer than a ring is wide, so the force still shows on both sides of the ring.
-        gives::draw(canvas, &joints, [format!("hinge{at}"), format!("slides{at}")]);
-    }
-}
-
-/// Returns the hinges and slips of a mechanism. A joint end that opens no faster than friction requires is closed: speeds
-/// under 2 % of the largest count as 0, and speeds over 6 % as motion.
-fn giving<'a>(scene: &Scene, found: &'a FrameAnalysis, governing: &Governing<'_>) -> Vec<Gives<'a>> {
-    let mechanism = governing.mechanism;
-    let fastest = mechanism.iter().map(|motion| motion.fastest(scene)).fold(0.0, f64::max);
-    let (zero, moves) = (0.02 * fastest, 0.06 * fastest);
-    let motions: BTreeMap<BodyId, &Motion> = mechanism.iter().map(|m| (BodyId::Block(m.block), m)).collect();
-    let velocity = |body: BodyId, at: Point| motions.get(&body).map_or(Vector::zeros(), |motion| motion.at(scene, at));
+    let (analysis, number, found) = (canvas.analysis, canvas.number, canvas.found());
+    let governing = governing(canvas.scene(), number, found);
+    let moving = canvas.own().moving.get_or_init(|| Moving::governing(analysis, number, &governing));
+    let mut joints = gives::of_fall(&moving.fall(analysis, number));
+    // A missing friction is drawn at the same place, and shows the slip too.
     let lacks_friction = |pair: [BodyId; 2]| {
         let mut failures = found.failures.iter();
         failures.any(|failure| matches!(failure, Failure::Friction { bodies, .. } if *bodies == pair))
     };
-    let one = |contact: &'a Contact| {
-        let interface = &contact.interface;
-        let [a, b] = interface.bodies;
-        let relative = interface.ends.map(|end| velocity(a, end) - velocity(b, end));
-        let slide = relative.map(|v| v.dot(&interface.tangent()));
-        let friction = governing.friction.map_or(interface.friction, |other| other.of(interface.friction));
-        let opening = [0, 1].map(|k| relative[k].dot(&interface.normal) - friction * slide[k].abs());
-        let closed = opening.map(|speed| speed.abs() < zero);
-        let opens = opening.map(|speed| speed > moves);
-        let how = match (closed, opens) {
-            ([true, _], [_, true]) => How::Hinge(interface.ends[0]),
-            ([_, true], [true, _]) => How::Hinge(interface.ends[1]),
-            // A missing friction is drawn at the same place, and shows the slip too.
-            ([true, true], _) if slide[0].abs() > moves && !lacks_friction(interface.bodies) => {
-                How::Slip(slide[0], None)
-            }
-            _ => return None,
-        };
-        Some(Gives { contact, how })
+    joints.retain(|joint| matches!(joint.how, How::Hinge(_)) || !lacks_friction(joint.contact.interface.bodies));
+    let more = joints.len().saturating_sub(MAX_COLLAPSE_MARKS);
+    joints.truncate(MAX_COLLAPSE_MARKS);
+    // The marks of a frame that stands belong to the margin that the line names first.
+    let factor = found.vehicle.as_ref().and_then(|own| own.positions[own.governing?].factor);
+    let at = match (governing.kind, moving.edge) {
+        (Some(MarginKind::LoadFactor), Some(factor)) => format!(" at {} × the loads", three_down(factor)),
+        (Some(MarginKind::LoadFactor), None) if factor.is_some() => {
+            format!(" at {} × the vehicle", factor.map_or(String::new(), three_down))
+        }
+        (Some(MarginKind::Tilt), Some(angle)) => format!(" at {}° of tilt", three_down(angle.abs())),
+        (Some(MarginKind::HorizontalLoad), Some(share)) => format!(" at {} × its weight", three_down(share.abs())),
+        (Some(MarginKind::Friction), Some(friction)) => format!(" at friction {}", three_up(friction)),
+        (Some(MarginKind::FrictionFactor), Some(factor)) => format!(" at {} × its friction", three_up(factor)),
+        _ if governing.at.is_empty() => String::new(),
+        _ => format!(" at {}", governing.at),
     };
-    if fastest > 0.0 { found.contacts.iter().filter_map(one).collect() } else { Vec::new() }
+    gives::draw(canvas, &joints, [format!("hinge{at}"), format!("slides{at}")], Place::Beside);
+    if more > 0 {
+        canvas.note(63, &format!("and {more} more: --kind mechanism"));
+    }
 }
 
 /// True if the options ask for what only the figures in the look of the thesis have.
 pub(crate) fn asks_for_source_look(options: &Options) -> bool {
     options.style == ForceStyle::Components
         || options.normalisation == Normalisation::Source
-        || matches!(options.fill, Fill::Stress | Fill::Friction | Fill::Source)
+        || options.fill == Fill::Source
 }

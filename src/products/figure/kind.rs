@@ -5,26 +5,19 @@ use super::capacity::CarriedForces;
 use super::compare::Comparison;
 use super::flow::ForceFlow;
 use super::freebody::FreeBody;
-use super::influence::InfluenceLine;
 use super::joint_forces::{self, JointForces, about_build};
-use super::kernel::Kernel;
-use super::margin::CollapseMargin;
+use super::joints::Joints;
 use super::mechanism::Mechanism;
-use super::movement::MovedSupport;
-use super::option::{ArrowScale, Options};
+use super::option::{ArrowScale, At, Options};
 use super::panel::{About, Figure};
-use super::placement::PlacementTolerance;
-use super::polygon::ForcePolygon;
-use super::removable::RemovableBlocks;
 use super::sensitivity::CornerEffects;
 use super::structure::Structure;
 use super::thrust::ThrustLine;
-use super::utilisation::Utilisation;
-#[cfg(any(feature = "python", feature = "wasm"))]
-use crate::mechanics::analysis::Verdict;
-use crate::mechanics::analysis::{self, Analysis, MarginKinds};
+use crate::mechanics::analysis::{self, Analysis, MarginKind, MarginKinds};
 #[cfg(any(feature = "cli", feature = "wasm"))]
-use crate::mechanics::analysis::{CapacityRequest, MarginKind, Sensitivity};
+use crate::mechanics::analysis::{CapacityRequest, Sensitivity};
+#[cfg(any(feature = "python", feature = "wasm"))]
+use crate::mechanics::analysis::{FrameAnalysis, Verdict};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 use crate::mechanics::scene::Frame;
 use crate::mechanics::scene::{BlockId, Scene};
@@ -70,21 +63,16 @@ pub enum Kind {
     /// the forces that enter it to the forces that leave it.
     Flow,
     /// The mechanism of a frame that falls: dashed outlines of the blocks in their original positions, the displaced
-    /// blocks, hinges and slips.
+    /// blocks, hinges and slips. With the option [`at`](Options::at), another motion: how a frame that stands falls just
+    /// beyond a margin, with errors of placement or under a vehicle, or how it cracks as a support moves.
     Mechanism,
     /// The line of thrust through the blocks, from interface to interface.
     Thrust,
-    /// The part of each interface in which its resultant is safe, and the position of the resultant.
-    Kernel,
-    /// The used fraction of the available friction at each interface, and of the limits of each robot.
-    Utilisation,
+    /// At each joint the part in which its resultant is safe, the position of the resultant, and the used share of the
+    /// available friction.
+    Joints,
     /// The forces of every step of a construction. The arrows of all panels have the same scale.
     Build,
-    /// The external forces on the structure, and their force polygon.
-    Polygon,
-    /// The structure in its present position, and strong outlines that show how it falls just beyond a margin: with
-    /// gravity turned, with a horizontal load added, or with larger loads.
-    Margin,
     /// The forces that a block can carry at a point, as a polygon at this point, and how the structure falls beyond its
     /// longest edges.
     Capacity,
@@ -93,44 +81,28 @@ pub enum Kind {
     Sensitivity,
     /// The changes of blocks and forces from one frame to the next. The arrows of all panels have the same scale.
     Compare,
-    /// The structure and its loads, without forces and without a verdict.
+    /// The structure and its loads, without forces and without a verdict. If the analysis has found out which blocks may
+    /// leave, their outlines show it.
     Structure,
     /// One block as a free body: all forces on it with their names, and a table of them. The option `block` names the
     /// block; the last frame that places it is shown.
     Freebody,
-    /// How far each block alone may be off its place, and the pattern of errors with which the structure falls.
-    Placement,
-    /// The cracks of the structure and its displaced blocks after a small movement of a support. If the scene lists
-    /// several movements, the option `movement` selects one of them.
-    Movement,
-    /// Which blocks may leave: without help, while a robot holds another block, or not.
-    Removable,
-    /// The load factor for each position of a vehicle as a line above the structure, the governing position, and how the
-    /// structure falls there. An animation drives over the structure.
-    Influence,
 }
 
 impl Kind {
     /// All kinds, in the order in which the help text lists them.
-    pub const ALL: [Kind; 18] = [
+    pub const ALL: [Kind; 11] = [
         Kind::Forces,
         Kind::Flow,
         Kind::Mechanism,
         Kind::Thrust,
-        Kind::Kernel,
-        Kind::Utilisation,
+        Kind::Joints,
         Kind::Build,
-        Kind::Polygon,
-        Kind::Margin,
         Kind::Capacity,
         Kind::Sensitivity,
         Kind::Compare,
         Kind::Structure,
         Kind::Freebody,
-        Kind::Placement,
-        Kind::Movement,
-        Kind::Removable,
-        Kind::Influence,
     ];
 
     /// Returns what draws a figure of this kind.
@@ -141,19 +113,12 @@ impl Kind {
             Kind::Flow => &ForceFlow,
             Kind::Mechanism => &Mechanism,
             Kind::Thrust => &ThrustLine,
-            Kind::Kernel => &Kernel,
-            Kind::Utilisation => &Utilisation,
-            Kind::Polygon => &ForcePolygon,
-            Kind::Margin => &CollapseMargin,
+            Kind::Joints => &Joints,
             Kind::Capacity => &CarriedForces,
             Kind::Sensitivity => &CornerEffects,
             Kind::Compare => &Comparison,
             Kind::Structure => &Structure,
             Kind::Freebody => &FreeBody,
-            Kind::Placement => &PlacementTolerance,
-            Kind::Movement => &MovedSupport,
-            Kind::Removable => &RemovableBlocks,
-            Kind::Influence => &InfluenceLine,
         }
     }
 
@@ -204,9 +169,15 @@ impl Kind {
         if let Some(kinds) = self.line_margins(scene, options).filter(|_| !analysis_options.margins) {
             analysis_options = analysis_options.margins(true).margin_kinds(kinds);
         }
-        analysis_options.margins |= self.needs_margins();
-        analysis_options.placement |= self.about().needs_placement;
-        analysis_options.removable |= self.about().needs_removable;
+        if let Some(kind) = self.needed_margin(options) {
+            analysis_options.margin_kinds = if analysis_options.margins {
+                analysis_options.margin_kinds.with(kind)
+            } else {
+                MarginKinds::new(&[kind])
+            };
+            analysis_options.margins = true;
+        }
+        analysis_options.placement |= self.needs_placement(options);
         if self.needs_sensitivity() && analysis_options.sensitivity.is_none() {
             analysis_options.sensitivity = Some(Sensitivity::default_kind(scene));
         }
@@ -226,26 +197,34 @@ impl Kind {
     /// than `analysis_options` names. If `analysis_options` requests the forces that a block can carry, and the figure
     /// needs them, the result is always true.
     #[cfg(any(feature = "python", feature = "wasm"))]
-    pub(crate) fn lacks(self, analysis: &Analysis, analysis_options: &analysis::Options) -> bool {
+    pub(crate) fn lacks(self, analysis: &Analysis, analysis_options: &analysis::Options, options: &Options) -> bool {
         let frames = &analysis.frames;
-        let margins = || frames.iter().all(|f| f.margins.is_some());
         let capacity = || analysis_options.capacity.is_none() && frames.iter().any(|f| f.capacity.is_some());
         let sensitivity = || {
             let kind = frames.iter().find_map(|f| Some(f.sensitivity.as_ref()?.kind));
             kind.is_some() && (analysis_options.sensitivity.is_none() || analysis_options.sensitivity == kind)
         };
-        let placement = || frames.iter().all(|f| f.placement.is_some() || f.verdict != Verdict::Stable);
-        self.needs_margins() && !margins()
-            || self.about().needs_placement && !placement()
-            || self.about().needs_removable && frames.iter().any(|f| f.removable.is_none())
+        let lacks = |found: &FrameAnalysis, kind| found.margins.as_ref().and_then(|margins| margins.of(kind)).is_none();
+        let placement = |found: &FrameAnalysis| found.placement.is_some() || found.verdict != Verdict::Stable;
+        self.needed_margin(options).is_some_and(|kind| frames.iter().any(|found| lacks(found, kind)))
+            || self.needs_placement(options) && !frames.iter().all(|found| placement(found))
+            || analysis_options.removable && frames.iter().any(|found| found.removable.is_none())
             || self.needs_capacity() && !capacity()
             || self.needs_sensitivity() && !sensitivity()
     }
 
-    /// True if the figure needs margins. The analysis computes them only on request
-    /// ([`analysis::Options::margins`](crate::mechanics::analysis::Options::margins)).
-    pub fn needs_margins(self) -> bool {
-        self.about().needs_margins
+    /// Returns the margin without which the figure is not complete: that of the motion which it shows, or of the forces.
+    fn needed_margin(self, options: &Options) -> Option<MarginKind> {
+        match self {
+            Kind::Mechanism => options.at?.margin(),
+            Kind::Joints => options.central.then_some(MarginKind::Kernel),
+            _ => None,
+        }
+    }
+
+    /// True if the figure shows how the structure falls with errors of placement.
+    fn needs_placement(self, options: &Options) -> bool {
+        self == Kind::Mechanism && options.at == Some(At::Placement)
     }
 
     /// True if the figure needs the forces that a block can carry. The analysis computes them only on request

@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::arrow::round_above;
 use super::canvas::Canvas;
 use super::design::{ArrowSize, Key, Layer, Mark, along, direction};
 use super::stage;
@@ -30,7 +31,8 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
     let largest = all.fold(0.0, f64::max);
     let longest = canvas.scale * largest;
     let fits = (canvas.mm(5.0)..=canvas.mm(11.0)).contains(&longest);
-    let scale = if fits { canvas.scale } else { canvas.mm(7.5) / largest };
+    let common = joint_scale(canvas);
+    let scale = common.unwrap_or(if fits { canvas.scale } else { canvas.mm(7.5) / largest });
     let ink = canvas.theme().load;
     let mut amounts: Vec<f64> = loads.iter().map(|load| load.force.norm()).collect();
     amounts.sort_by(|a, b| b.total_cmp(a));
@@ -39,6 +41,16 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
         1 => "load".to_owned(),
         count if count > MAX_LOAD_AMOUNTS => "loads, amounts only at the largest".to_owned(),
         _ => "loads".to_owned(),
+    };
+    // A load that would be too short has an arrow of the least length.
+    let stub = common.map(|scale| canvas.mm(STUB) / scale);
+    let has_stub = stub.is_some_and(|stub| loads.iter().any(|load| (1e-9..0.98 * stub).contains(&load.force.norm())));
+    let units = scene.units.force();
+    let words = match stub.filter(|_| has_stub) {
+        Some(stub) => {
+            format!("{words}; stub: under {}", quantity(units.size * round_above(units.value_from_si(stub)), units))
+        }
+        None => words,
     };
     let size = ArrowSize { length: canvas.mm(5.0), ..load_size(canvas) };
     let mut symbol = vec![hollow(canvas, size.outline(PagePoint::new(0.0, 0.0), (1.0, 0.0)), ink)];
@@ -71,6 +83,15 @@ pub(crate) fn loads(canvas: &mut Canvas<'_>) {
     }
 }
 
+/// The length of the arrow of a force that would be shorter in the one scale of a picture, mm.
+pub(crate) const STUB: f64 = 2.5;
+
+/// Returns the one scale of all forces of a picture with a mark at each joint, pixels per newton: loads and missing forces
+/// have it too. `None` for other pictures.
+pub(crate) fn joint_scale(canvas: &Canvas<'_>) -> Option<f64> {
+    (canvas.scale > 0.0 && canvas.shares_scale).then_some(canvas.scale)
+}
+
 /// True if a load acts inside its block, visibly away from its edges. A dot then marks the point.
 fn acts_inside(canvas: &Canvas<'_>, load: &Load) -> bool {
     let polygon = &canvas.scene().blocks[load.block.0].body.polygon;
@@ -90,7 +111,7 @@ fn one_load(canvas: &mut Canvas<'_>, load: &Load, scale: f64, key: &Rc<Key>, has
     let (scene, ink) = (canvas.scene(), canvas.theme().load);
     let norm = load.force.norm();
     let u = direction(load.force);
-    let length = (scale * norm).max(canvas.mm(3.0));
+    let length = (scale * norm).max(canvas.mm(if joint_scale(canvas).is_some() { STUB } else { 3.0 }));
     let at = canvas.place(load.at);
     let stone = |from: f64, to: f64| stone_length(canvas, [along(at, u, from, 0.0), along(at, u, to, 0.0)]);
     let (before, after) = (stone(-length, -canvas.mm(0.05)), stone(canvas.mm(0.05), length));

@@ -26,21 +26,16 @@ mod funicular;
 mod gallery;
 mod gives;
 mod joint_forces;
-mod influence;
-mod kernel;
+mod joints;
 mod kind;
 mod load;
-mod margin;
 mod mechanism;
-mod movement;
+mod moving;
 mod option;
 mod page;
 mod panel;
 mod parallel_arrows;
-mod placement;
-mod removable;
 mod placing;
-mod polygon;
 mod ring;
 mod sensitivity;
 mod shapes;
@@ -49,8 +44,8 @@ mod stage;
 mod symmetric;
 mod structure;
 mod thrust;
-mod utilisation;
 mod verdict;
+mod view;
 
 pub use crate::mechanics::analysis::acting::ForceKind as ArrowKind;
 pub use arrow::{ForceArrow, Head, Marks, TurnArrow, TurnKind, arrows, marks};
@@ -67,10 +62,11 @@ pub use gallery::{Plate, gallery};
 pub use kind::Kind;
 #[cfg(feature = "cli")]
 pub(crate) use kind::cheap_margins;
-pub use option::{ArrowScale, Corners, Fill, ForceStyle, Normalisation, Options};
+pub use option::{ArrowScale, At, Corners, Fill, ForceStyle, Normalisation, Options};
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use option::{free_block, named_block};
 pub use ring::ring;
 pub use shapes::shapes;
+pub use view::View;
 
 pub use crate::products::wording::number::quantity;

@@ -4,7 +4,7 @@
 use crate::mechanics::analysis::MarginKind;
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::{Colour, Theme};
-use crate::text::{self, nearest};
+use crate::text::{self, Word, nearest};
 
 words! {
     /// Whether the force of an interface is drawn as one arrow or as components.
@@ -53,17 +53,61 @@ words! {
         /// at the largest amplitude in the figure.
         #[default]
         Amplitude = "amplitude", "The larger of a block's weight and its largest normal force, N";
-        /// The largest mean pressure (normal force over area) on one of its interfaces, N/m². Corners have no area and
-        /// are left out.
-        Stress = "stress", "The largest mean pressure on one of its interfaces, N/m², for the scene's thickness";
-        /// The largest used fraction of the available friction on one of its interfaces.
-        Friction = "friction", "The largest fraction of the available friction that one of its interfaces uses";
+        /// A value of the last version: [`Kind::Joints`](super::Kind::Joints) shows more. Blocks have one plain colour.
+        Stress = "stress", "Now --kind joints";
+        /// A value of the last version: [`Kind::Joints`](super::Kind::Joints) shows more. Blocks have one plain colour.
+        Friction = "friction", "Now --kind joints";
         /// No quantity: blocks have one plain colour.
         None = "none", "Nothing: plain blocks";
         /// The rule of the thesis, in its colours. A block that a robot holds shows the used fraction of the limits of
         /// this robot. Any other block shows its amplitude as a fraction of the smallest force limit of all robots. If
         /// no robot has a force limit, every block shows its amplitude as a fraction of the largest amplitude.
         Source = "source", "Fractions of the robots' limits, computed and coloured as in Vallat (2023)";
+    }
+}
+
+/// The motion that a figure of a mechanism shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum At {
+    /// How the structure falls just beyond a margin.
+    Margin(MarginKind),
+    /// How it cracks as a support moves. The option `movement` selects one of several movements.
+    Movement,
+    /// How it falls if its blocks are off their places.
+    Placement,
+    /// How it falls under the vehicle of the scene, and the load factor for each position of the vehicle.
+    Vehicle,
+}
+
+impl At {
+    /// Returns the margin beyond which the structure falls; `None` for another motion.
+    pub fn margin(self) -> Option<MarginKind> {
+        match self {
+            At::Margin(kind) => Some(kind),
+            _ => None,
+        }
+    }
+}
+
+impl Word for At {
+    fn all() -> Vec<At> {
+        use MarginKind::{Friction, FrictionFactor, HorizontalLoad, LoadFactor, Tilt};
+        let margins = [Tilt, LoadFactor, HorizontalLoad, Friction, FrictionFactor].map(At::Margin).into_iter();
+        margins.chain([At::Movement, At::Placement, At::Vehicle]).collect()
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            At::Margin(kind) => Word::word(kind),
+            At::Movement => "movement",
+            At::Placement => "placement",
+            At::Vehicle => "vehicle",
+        }
+    }
+
+    fn alias(self) -> Option<&'static str> {
+        self.margin().and_then(Word::alias)
     }
 }
 
@@ -157,22 +201,27 @@ request! {
         pub dimensions: bool = given.flag("dimensions"),
             arg(long, help = "Draw dimension lines at the edges of each panel: width and height of all blocks, or of \
                               the block of --zoom");
-        /// Whether [`Kind::Thrust`](super::Kind::Thrust) also shows the force polygon next to the structure: a load
-        /// line, a pole, and a ray for each joint.
+        /// Whether [`Kind::Thrust`](super::Kind::Thrust) also shows the force polygon next to the structure: the load line
+        /// and the reactions, in an arch also the pole and a ray for each joint.
         pub with_polygon: bool = given.flag("with_polygon"),
-            arg(long, help = "Draw the force polygon next to the line of thrust of --kind thrust: a load line, a pole, \
-                              and a ray for each joint");
+            arg(long, help = "Draw the force polygon next to the line of thrust of --kind thrust: loads and reactions, in \
+                              an arch also the pole and a ray for each joint");
         /// The number of panels in a row; `None` to choose it by the shape of the panels.
         pub columns: Option<usize> = given.whole("columns", [1, 65535]).map(|columns| columns as usize),
             arg(long, value_name = "N", help = "Panels per row of a strip",
                 value_parser = clap::builder::TypedValueParser::map(clap::value_parser!(u16).range(1..), usize::from));
-        /// The movement of the scene that [`Kind::Movement`](super::Kind::Movement) shows, from 1; `None` for the first one
-        /// that the structure follows.
+        /// The movement of the scene that a mechanism [at](At::Movement) a movement shows, from 1; `None` for the first
+        /// one that the structure follows.
         pub movement: Option<usize> = given.whole("movement", [1, 65535]).map(|number| number as usize),
-            arg(long, value_name = "N", help = "The movement of a support that --kind movement shows, from 1",
+            arg(long, value_name = "N", help = "The movement of a support that --at movement shows, from 1",
                 value_parser = clap::builder::TypedValueParser::map(clap::value_parser!(u16).range(1..), usize::from));
-        /// The parameter that [`Kind::Margin`](super::Kind::Margin) changes until a frame falls.
-        pub toward: MarginKind = MarginKind::default(), arg(skip);
+        /// Whether [`Kind::Joints`](super::Kind::Joints) shows the forces of the largest kernel.
+        pub central: bool = false, arg(skip);
+        /// The motion that [`Kind::Mechanism`](super::Kind::Mechanism) shows; `None` for the fall of what does not stand.
+        pub at: Option<At> = given.word("at"),
+            arg(long, value_name = "AT", value_parser = crate::text::typed_word::<At>(),
+                help = "What --kind mechanism shows: how a structure that stands falls just beyond a margin, with errors \
+                        of placement or under its vehicle, or how it cracks as a support moves");
         /// How far the blocks of a mechanism are drawn along their paths: 0 at the beginning, 1 at the end.
         pub motion_progress: f64 = given.number("way").map_or(1.0, |way| way.clamp(0.0, 1.0)), arg(skip = 1.0);
         /// Whether the picture belongs to an animation: the blocks of a mechanism then move until it is clear what falls.

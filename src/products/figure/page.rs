@@ -230,7 +230,9 @@ impl Page<'_> {
                 let span = (format!("{}·\u{a0}{words}", text::NO_BREAK), Face::Sans, theme.ink);
                 let wide: f64 =
                     line.iter().chain([&span]).map(|(words, face, _)| text::width(words, *face, size)).sum();
-                if alone && wide <= room - indent { line.push(span) } else { long.push(words) }
+                // What follows words that do not fit stands below them, so that the first margin stays first.
+                let fits = alone && long.is_empty() && wide <= room - indent;
+                if fits { line.push(span) } else { long.push(words) }
             }
             if !line.is_empty() {
                 lines.push(line);
@@ -293,14 +295,24 @@ impl Page<'_> {
         for (total, row) in rows {
             self.y += look.mm(3.4);
             let mut x = (self.width - total) / 2.0;
+            let numbers = self.y + look.mm(0.4) + size;
+            let has_numbers = row.iter().any(|key| !key.ticks.is_empty());
             for key in row {
                 let middle = PagePoint::new(x, self.y - 0.36 * size);
                 let symbol = key.symbol.iter().map(|path| Item::from(path.clone()).moved(middle.x, middle.y));
                 group.items.extend(symbol);
+                for (along, number) in &key.ticks {
+                    let at = PagePoint::new(x + along, numbers);
+                    let number = Text::new(at, *number, Face::Sans, size, theme.faint).anchored(Anchor::Middle);
+                    group.items.push(number.into());
+                }
                 let words = text::width(&key.words, Face::Sans, size);
                 let at = PagePoint::new(x + width(&key) - words, self.y);
                 group.items.push(Text::new(at, key.words.as_str(), Face::Sans, size, theme.faint).into());
                 x += width(&key) + between;
+            }
+            if has_numbers {
+                self.y = numbers;
             }
         }
         if !group.items.is_empty() {

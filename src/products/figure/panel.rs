@@ -97,7 +97,6 @@ pub(crate) trait Figure: Sync {
     }
 
     /// Returns the margins that the figure shows if the analysis has computed them. The figure is complete without them.
-    /// If a figure is not complete without margins, [`About::needs_margins`] requests them.
     fn stated_margins(&self, _analysis: &Analysis) -> &'static [MarginKind] {
         &[]
     }
@@ -181,14 +180,8 @@ pub(crate) struct About {
     pub help: &'static str,
     /// The title of the figure if the scene has none.
     pub title: &'static str,
-    /// Whether the analysis has to compute the margins.
-    pub needs_margins: bool,
     /// Whether the analysis has to compute the forces that a block can carry.
     pub needs_capacity: bool,
-    /// Whether the analysis has to compute how accurately the blocks must be placed.
-    pub needs_placement: bool,
-    /// Whether the analysis has to find out which blocks may leave.
-    pub needs_removable: bool,
     /// Whether the analysis has to compute how a margin changes with corners, weights, friction and loads.
     pub needs_sensitivity: bool,
     /// Whether each falling part is shown with one elementary mechanism

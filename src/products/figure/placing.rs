@@ -109,6 +109,8 @@ pub(crate) struct Surroundings {
     edges: BoxIndex<[PagePoint; 2]>,
     stones: BoxIndex<Vec<PagePoint>>,
     structure: PageRect,
+    /// The x coordinate of a line between two drawings: no label crosses it, and each stays on the side of its anchor.
+    pub gutter: Option<f64>,
     /// The cost of a label that lies wholly in stones.
     inside: f64,
 }
@@ -147,6 +149,7 @@ impl Surroundings {
             edges: BoxIndex::new(edges, |edge| bounds(edge)),
             stones: BoxIndex::new(rings, |ring| bounds(ring)),
             structure,
+            gutter: None,
             inside: if has_fills {
                 3.0
             } else if look.large {
@@ -155,6 +158,12 @@ impl Surroundings {
                 1.3
             },
         }
+    }
+
+    /// True if a label beside an anchor would cross the line between two drawings.
+    fn parts(&self, rect: PageRect, anchor: PagePoint) -> bool {
+        let is_left = |gutter: f64| anchor.x < gutter;
+        self.gutter.is_some_and(|x| if is_left(x) { rect.at.x + rect.width > x } else { rect.at.x < x })
     }
 
     /// Returns the number of obstacles that a rectangle covers.
@@ -328,6 +337,9 @@ fn around_anchors(
                 let reach = look.mm(distance);
                 let aside = |u: f64, side: f64| u * reach + side / 2.0 * (1.6 * u).clamp(-1.0, 1.0);
                 let rect = centred(anchor.moved(aside(ux, size.0), aside(uy, size.1)), size);
+                if drawn.parts(rect, *anchor) {
+                    continue;
+                }
                 let start = 0.55 * distance + 0.3 * number as f64;
                 if !free(rect) || best.is_some_and(|best| start - 2.1 > best.cost) || !drawn.is_clear(rect) {
                     continue;

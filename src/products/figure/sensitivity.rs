@@ -362,9 +362,9 @@ impl Sketch<'_> {
                     if is_kink(corner.moves) { format!("{by} {}", words::toward(direction)) } else { format!("+{by}") };
                 (Some(corner.at), done)
             }
-            Target::Load(load, direction) => {
+            Target::Load(at, direction) => {
                 let done = format!("load {by} {}", words::toward(direction));
-                (Some(scene.loads[load].at), done)
+                (Some(at), done)
             }
             Target::Weight(block) => {
                 let sign = if change.words.ends_with("heavier") { '+' } else { '−' };

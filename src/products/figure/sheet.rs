@@ -279,7 +279,7 @@ impl<'a> Sheet<'a> {
             _ => 1,
         };
         let about = self.figure.about();
-        let has_words = about.needs_capacity || about.needs_margins || about.needs_sensitivity;
+        let has_words = about.needs_capacity || self.options.at.is_some() || about.needs_sensitivity;
         let least = self.look.mm(if has_words { WORDS } else { 0.0 });
         while height(columns) > MOST_HIGH * self.width {
             // More columns must save a row.
@@ -320,7 +320,8 @@ impl<'a> Sheet<'a> {
         let most = most.min(self.largest_zoom());
         let first = self.first_zoom();
         let about = self.figure.about();
-        let is_crowded = self.options.dimensions || about.shows_one_block || about.needs_margins;
+        let is_crowded =
+            self.options.dimensions || about.shows_one_block || self.options.at.is_some() || self.options.with_polygon;
         let least = if is_crowded { LEAST_CROWDED_ZOOM } else { LEAST_ZOOM } * first;
         let mut best = self.drawn(frames, first);
         for _ in 0..2 {

@@ -7,8 +7,8 @@
 //! greatest thrust. H is the horizontal thrust at the crown.
 
 mod chain;
-mod fan;
 mod leaving;
+mod polygon;
 
 use std::borrow::Cow;
 use std::rc::Rc;
@@ -61,7 +61,7 @@ impl Figure for ThrustLine {
     fn subject(&self, analysis: &Analysis, options: &Options, frames: Option<&[usize]>) -> Subject {
         let mut subject = Subject::structure(analysis, options, frames);
         if options.with_polygon && !subject.is_cut {
-            subject.bounds.max.x += fan::WIDTH_SHARE * subject.bounds.width().max(subject.bounds.height());
+            polygon::widened(&mut subject);
         }
         subject
     }
@@ -70,7 +70,14 @@ impl Figure for ThrustLine {
         let (scene, states) = (canvas.scene(), states(canvas, canvas.number));
         let found = shown(states, canvas.found());
         let segments = segments(scene, canvas.frame(), &found);
+        // The ground ends beside the structure, not below the force polygon.
+        let all = canvas.structure;
+        if canvas.window.is_none() {
+            let options = Options { with_polygon: false, ..canvas.options.clone() };
+            canvas.structure = canvas.camera.rect(Subject::structure(canvas.analysis, &options, None).bounds);
+        }
         stage::ground(canvas);
+        canvas.structure = all;
         stage::blocks(canvas);
         limits(canvas, states);
         let keys = Keys::new(canvas);
@@ -81,15 +88,14 @@ impl Figure for ThrustLine {
         dots(canvas, &found, &keys);
         stage::held(canvas);
         load::loads(canvas);
-        let has_fan = canvas.options.with_polygon && found.verdict == Verdict::Stable && fan::draw(canvas, &found);
+        let polygon =
+            if canvas.options.with_polygon && canvas.window.is_none() { polygon::draw(canvas) } else { Vec::new() };
         stage::names(canvas);
         if states.central.is_some() {
             canvas.note(80, "other figures: forces of least sum");
         }
         let mut words = words(canvas, &found);
-        if canvas.options.with_polygon && !has_fan {
-            words.push("no force polygon: no chain of blocks has a horizontal thrust".to_owned());
-        }
+        words.extend(polygon);
         canvas.words = Some(words);
     }
 }

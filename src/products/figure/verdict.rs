@@ -1,10 +1,8 @@
 //! Draws the symbol of a verdict: a disc with a tick, a cross or a question mark, so that the verdict is clear without
 //! colours. Its text comes from [`wording`](crate::products::wording).
 
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, Interval, MarginKind, Verdict};
-use crate::mechanics::scene::Scene;
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, Verdict};
 use crate::pictures::drawing::{Colour, Group, Outline, PagePoint, Path, Stroke, Theme};
-use crate::products::wording::margin;
 
 /// With more blocks than this in a frame, a figure does not ask for a margin that it can do without, because it would
 /// take longer than the figure.
@@ -13,15 +11,6 @@ const MAX_BLOCKS: usize = 200;
 /// True if every frame has so few blocks that its margins take little time.
 pub(crate) fn has_cheap_margins(analysis: &Analysis) -> bool {
     analysis.scene.frames.iter().all(|frame| frame.placed.len() <= MAX_BLOCKS)
-}
-
-/// Describes the margin of one parameter: `friction coefficient: stands from 0.42; now 0.6`. Returns `None` if it was
-/// not computed or is undecided.
-pub(crate) fn margin(scene: &Scene, frame_analysis: &FrameAnalysis, kind: MarginKind) -> Option<String> {
-    let margins = margin::stated(scene, frame_analysis);
-    let margin = margins.iter().find(|margin| margin.kind == kind)?;
-    let decided = !matches!(margin.interval, Interval::Undecided);
-    decided.then(|| format!("{}: {}", margin.name, margin.sentence()))
 }
 
 /// Returns the colour of the symbol of a verdict.

@@ -24,7 +24,7 @@ use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::pictures::drawing::{Drawing, Theme};
 use crate::pictures::output::svg;
-use crate::products::figure::{self, Kind};
+use crate::products::figure::{self, Kind, View};
 use crate::read::file;
 use crate::text;
 
@@ -283,11 +283,12 @@ fn html(figure: Figure) -> String {
     format!("<figure class=\"drystone\" style=\"overflow-x: auto\">\n{}\n{caption}</figure>", lines.join("\n"))
 }
 
-fn drawing(analysis: &Analysis, request: &FigureRequest, mut options: figure::Options) -> Result<Drawing, String> {
+fn drawing(analysis: &Analysis, request: &FigureRequest, options: figure::Options) -> Result<Drawing, String> {
     let name = request.kind.as_str();
     let known = || Kind::ALL.map(Kind::name).join(", ");
-    let kind =
-        Kind::from_name(name).ok_or_else(|| format!("there is no kind of figure {name:?}; known are {}", known()))?;
+    let view =
+        View::from_name(name).ok_or_else(|| format!("there is no kind of figure {name:?}; known are {}", known()))?;
+    let (kind, mut options) = (view.kind, view.options(&options));
     if kind.shows_one_block() {
         let scene = &analysis.scene;
         let block = match &request.block {

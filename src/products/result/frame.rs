@@ -51,7 +51,7 @@ pub(super) fn frame<'a>(
         margins: frame.margins.as_ref().map(|margins| margins_of(scene, margins)),
         sensitivity: frame.sensitivity.as_ref().map(|found| sensitivity(scene, frame, found)),
         placement: frame.placement.as_ref().map(|found| placement(scene, found)),
-        cases: Json::list(cases.iter().flat_map(|cases| &cases.each).map(case)).unless_empty(),
+        cases: Json::list(cases.iter().flat_map(|cases| &cases.each).map(|own| case(scene, own))).unless_empty(),
         governing_case: cases.map(|cases| &cases.each[cases.governing].id),
         envelope: Json::list(envelope).unless_empty(),
         conditions: (cases.is_some() || frame.vehicle.is_some()).then(|| conditions(frame)),

@@ -224,6 +224,22 @@ static MARGINS: [Key; FRAME_KINDS + 5] = of_margins(Margin, &[
     key("mechanisms", Object, "motion just beyond each margin; empty for a margin that is unbounded or null, and for a margin that was not requested").of(&MECHANISMS),
 ]);
 
+/// How a structure follows a movement of a support.
+const MOVEMENT: &[Key] = &[
+    key("ground", Text, "part of the ground that moves"),
+    key("outcome", Word(&["follows", "jams", "untouched", "unsolved"]), "`follows`: it cracks and follows the support; `jams`: rigid blocks cannot follow; `untouched`: no block touches the support where it moves; `unsolved`: the solver ended without a result"),
+    key("unit", Number, "displacement of the fastest point at which the structure touches the support; `joints` and `velocities` are per metre of it").unit("m").when("if it follows"),
+    key("force", Pair, "force of the structure on the support: H to the right, V upwards").unit("N").when("if it follows"),
+    key("work", Number, "work of this force on the movement, the least of all forces that balance the frame").unit("J").when("if it follows"),
+    key("joints", Objects, "joints that open or slide").when("if it follows").of(&[
+        INTERFACE,
+        key("end", Count, "application point that stays closed, 0 or 1").when("if the joint opens about one end"),
+        key("opening", Number, "how far it opens at its wider end").unit("m/m"),
+        key("slip", Number, "how far the first body slides along (−n_y, n_x)").unit("m/m"),
+    ]),
+    key("velocities", Motions, "displacement of the placed blocks").when("if it follows"),
+];
+
 const CONDITION: &[Key] = &[
     key("case", Text, "load case").when("if the scene has load cases"),
     key("position", Count, "index of the position of the vehicle in `vehicle.positions`, from 0")
@@ -428,11 +444,12 @@ pub static KEYS: &[Key] = &[
                 key("proved", Number, "the frame stands if only this block is off by up to this").unit("m"),
             ]),
         ]),
-        key("cases", Objects, "load cases; margins, placement tolerance and removable blocks of the frame hold in all of them, its other results are those of the worst case").when("if the scene has load cases").of(&[
+        key("cases", Objects, "load cases; the answers to questions, such as margins and capacity, hold in all of them; the forces are those of the worst case").when("if the scene has load cases").of(&[
             key("id", Text, "name of the case"),
             key("verdict", Word(&["stable", "undecided", "unstable"]), "verdict in this case"),
             key("load_factor", Margin, "largest factor on the loads in this case").when(IF_MARGIN_REQUESTED),
             key("tilt", Object, "largest turns of gravity in this case").when(IF_MARGIN_REQUESTED).of(TILT_SIDES),
+            key("movements", Objects, "how the structure follows each movement of a support in this case").when("if the scene lists `movements` and the frame stands in this case").of(MOVEMENT),
         ]),
         key("governing_case", Text, "the worst case: that with the worst verdict, then the least load factor").when("if the scene has load cases"),
         key("envelope", Objects, "the least and the greatest forces at each interface in the listed balances of all cases").when("if the scene has load cases").of(&[
@@ -444,21 +461,9 @@ pub static KEYS: &[Key] = &[
             key("margins", Object, "for each margin, the conditions that decide the lower and the upper end of its interval").when(IF_MARGINS_REQUESTED).of(&CONDITIONS),
             key("placement", Objects, "the conditions that decide the proved tolerance, and the errors with which the frame falls").when("with `--placement`, if the frame stands").of(CONDITION),
             key("removable", Objects, "for each row of `removable`, the condition that decides it").when("with `--removable`").of(CONDITION),
+            key("capacity", Objects, "for each edge of `capacity`, the condition that decides it").when("with `--capacity`, if the set has edges").of(CONDITION),
         ]),
-        key("movements", Objects, "how the structure follows each movement of a support, for small displacements; a joint that slides also opens, by μ times the slip").when("if the scene lists `movements` and the frame stands").of(&[
-            key("ground", Text, "part of the ground that moves"),
-            key("outcome", Word(&["follows", "jams", "untouched", "unsolved"]), "`follows`: it cracks and follows the support; `jams`: rigid blocks cannot follow; `untouched`: no block touches the support where it moves; `unsolved`: the solver ended without a result"),
-            key("unit", Number, "displacement of the fastest point at which the structure touches the support; `joints` and `velocities` are per metre of it").unit("m").when("if it follows"),
-            key("force", Pair, "force of the structure on the support: H to the right, V upwards").unit("N").when("if it follows"),
-            key("work", Number, "work of this force on the movement, the least of all forces that balance the frame").unit("J").when("if it follows"),
-            key("joints", Objects, "joints that open or slide").when("if it follows").of(&[
-                INTERFACE,
-                key("end", Count, "application point that stays closed, 0 or 1").when("if the joint opens about one end"),
-                key("opening", Number, "how far it opens at its wider end").unit("m/m"),
-                key("slip", Number, "how far the first body slides along (−n_y, n_x)").unit("m/m"),
-            ]),
-            key("velocities", Motions, "displacement of the placed blocks").when("if it follows"),
-        ]),
+        key("movements", Objects, "how the structure follows each movement of a support, for small displacements; a joint that slides also opens, by μ times the slip").when("if the scene lists `movements` and the frame stands").of(MOVEMENT),
         key("removable", Objects, "for each placed block, in the order of placing, whether it may leave").when("with `--removable`").of(&[
             key("block", Text, "block"),
             key("stands", FlagOrOpen, "whether the rest stands without the block and without the robot that holds it"),
@@ -473,7 +478,7 @@ pub static KEYS: &[Key] = &[
             key("target", Number, "value that the margin must reach; degrees for the tilt, to both sides"),
             key("stands", FlagOrOpen, "whether the unchanged frame stands, also at the target"),
             key("changes", Objects, "changes, each of which alone reaches the target, and those that cannot; empty if none is needed").of(&[
-                key("change", Word(&["friction", "thickness", "weight", "hold", "tie", "prop"]), "one friction coefficient at all joints; a factor on the thickness of a chain; more weight on a block; a force from outside that holds a block at its centroid; a tie or a prop between the centroids of two blocks"),
+                key("change", Word(&["friction", "friction_factor", "thickness", "weight", "hold", "tie", "prop"]), "one friction coefficient at all joints; a factor on the friction, if the coefficients differ; a factor on the thickness of a chain; more weight on a block; a force from outside that holds a block at its centroid; a tie or a prop between the centroids of two blocks"),
                 key("blocks", NameList, "changed block, or the two blocks that are connected: those that need least of all that were tried").when("if blocks are chosen"),
                 key("amount", Number, "least amount, rounded up to three digits: a coefficient, a factor, or N; the changed frame is proved to stand at the target").when("if some amount reaches the target"),
                 key("mechanism", Motions, "motion that no amount stops").when("if no amount does, and one motion proves it"),

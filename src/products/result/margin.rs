@@ -11,6 +11,7 @@
 //! has the motions that exclude all values.
 
 use super::json::{Json, compact, motions, object};
+use super::question::movement;
 use crate::mechanics::analysis::{CaseResult, End, Interval, MarginKind, Margins};
 use crate::mechanics::scene::Scene;
 
@@ -46,13 +47,14 @@ pub(super) fn margins_of<'a>(scene: &'a Scene, found: &'a Margins) -> Json<'a> {
 }
 
 /// Returns the value of the key `cases` for one load case.
-pub(super) fn case(case: &CaseResult) -> Json<'_> {
+pub(super) fn case<'a>(scene: &'a Scene, case: &'a CaseResult) -> Json<'a> {
     let margins = case.margins.as_ref();
     object! {
         id: &case.id,
         verdict: case.verdict.word(),
         load_factor: margins.map(|margins| margin(margins, MarginKind::LoadFactor)),
         tilt: margins.map(|margins| margin(margins, MarginKind::Tilt)),
+        movements: Json::list(case.movements.iter().map(|moved| movement(scene, moved))).unless_empty(),
     }
 }
 

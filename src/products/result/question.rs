@@ -57,10 +57,12 @@ pub(super) fn conditions(frame: &FrameAnalysis) -> Json<'_> {
         (kind.word(), margin.map(|margin| both(&margin.conditions)).into())
     };
     let rows = frame.removable.iter().flatten();
+    let edges = frame.capacity.iter().flat_map(|capacity| &capacity.edges);
     object! {
         margins: frame.margins.as_ref().map(|_| Json::object(MarginKind::of_frame().map(of_kind))),
         placement: frame.placement.as_ref().map(|found| both(&found.conditions)),
         removable: Json::list(rows.map(|row| one(&row.condition))).unless_empty(),
+        capacity: Json::list(edges.map(|edge| one(&edge.condition))).unless_empty(),
     }
 }
 

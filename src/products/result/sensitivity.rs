@@ -26,9 +26,8 @@ fn end<'a>(scene: &'a Scene, frame: &FrameAnalysis, is_high: bool, found: &EndSe
         let bodies = frame.contacts.get(*interface)?.interface.bodies.map(|body| name(scene, body));
         Some(object! { interface: *interface, bodies: bodies }.and(one(*slope)))
     });
-    let loads = found.loads.iter().map(|(load, slopes)| {
-        let given = &scene.loads[*load];
-        object! { load: given.entry, block: &scene.blocks[given.block.0].id, at: given.at }.and(two(*slopes))
+    let loads = found.loads.iter().map(|load| {
+        object! { load: load.entry, block: &scene.blocks[load.block.0].id, at: load.at }.and(two(load.slopes))
     });
     object! {
         end: if is_high { "high" } else { "low" },

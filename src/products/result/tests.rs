@@ -60,6 +60,7 @@ fn scene() -> Scene {
         vehicle: None,
         materials: vec![],
         friction_pairs: vec![],
+        joint_sets: Vec::new(),
         contacts: Vec::new(),
         corner_contacts: CornerContacts::NONE,
         frames: vec![Step {

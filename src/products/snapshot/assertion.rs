@@ -132,7 +132,7 @@ pub fn figure(crate_folder: &Path, name: &Path, drawing: &Drawing) {
     }
     let base = place(crate_folder, &Path::new(FIGURE_FOLDER).join(name));
     let find = |parts: &mut Vec<Part>, settings: &Settings| {
-        parts.retain(|p| p.layer != Layer::Facts && p.kind == settings.kinds[0] && p.theme == settings.themes[0]);
+        parts.retain(|p| p.layer != Layer::Facts && p.view == settings.kinds[0] && p.theme == settings.themes[0]);
         check::check_drawing(drawing, parts, settings)
     };
     let what = format!("the figure {}", name.display());

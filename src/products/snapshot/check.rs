@@ -67,12 +67,12 @@ pub(super) fn check_analysis(analysis: &Analysis, parts: &[Part], settings: &Set
             findings.extend(text_finding(part, facts.text(), |text| Ok(Facts::read(text)?.changes(&facts))));
             continue;
         }
-        let known = drawn.take().filter(|(p, _)| p.kind == part.kind && p.theme == part.theme);
+        let known = drawn.take().filter(|(p, _)| p.view == part.view && p.theme == part.theme);
         let (_, text) = drawn.insert(known.unwrap_or_else(|| {
             // The first theme of all stands for the default, which is another theme for scenes on a lattice.
             let theme = Theme::named(&part.theme).filter(|_| part.theme != Theme::NAMES[0]).unwrap_or_default();
-            let options = Options { theme, ..Options::default() };
-            (part, svg::write(&figure::draw(analysis, part.kind, &options)))
+            let options = part.view.options(&Options { theme, ..Options::default() });
+            (part, svg::write(&figure::draw(analysis, part.view.kind, &options)))
         }));
         findings.extend(drawing_finding(part, text, settings));
     }

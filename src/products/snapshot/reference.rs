@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::layer::Layer;
 use super::setting::Settings;
 use crate::pictures::drawing::Theme;
-use crate::products::figure::Kind;
+use crate::products::figure::{Kind, View};
 
 /// A reference file of a snapshot, and the options that produce it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,8 +14,8 @@ pub struct Part {
     pub layer: Layer,
     /// The path of the file.
     pub file: PathBuf,
-    /// The kind of figure.
-    pub kind: Kind,
+    /// What the figure shows.
+    pub view: View,
     /// The name of the theme of the figure.
     pub theme: String,
     /// The width of the picture in pixels; `None` for the natural width of the drawing.
@@ -40,7 +40,7 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
     let mut parts = Vec::new();
     let has = |layer: Layer| settings.layers.contains(&layer);
     let first_theme = settings.themes.first().cloned().unwrap_or_default();
-    let mut part = |layer, marks: &[Option<String>], kind, theme: &str, width| {
+    let mut part = |layer, marks: &[Option<String>], view, theme: &str, width| {
         let extension = match layer {
             Layer::Facts => "txt",
             Layer::Svg => "svg",
@@ -51,10 +51,10 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
         for suffix in marks.iter().flatten().map(String::as_str).chain([extension]) {
             name.push(format!(".{suffix}"));
         }
-        parts.push(Part { layer, file: base.with_file_name(name), kind, theme: theme.to_owned(), width });
+        parts.push(Part { layer, file: base.with_file_name(name), view, theme: theme.to_owned(), width });
     };
     if has(Layer::Facts) {
-        part(Layer::Facts, &[], Kind::Forces, &first_theme, None);
+        part(Layer::Facts, &[], Kind::Forces.into(), &first_theme, None);
     }
     // Without widths in the settings, pictures have the natural width of the drawing.
     let widths: Vec<Option<u32>> = match settings.widths.as_slice() {
@@ -84,6 +84,6 @@ pub fn parts(base: &Path, settings: &Settings) -> Vec<Part> {
 pub(super) fn is_reference_suffix(suffix: &str) -> bool {
     suffix.split('.').all(|mark| {
         let is_width = mark.strip_prefix('w').is_some_and(|width| width.parse::<u32>().is_ok());
-        is_width || Kind::from_name(mark).is_some() || Theme::NAMES.contains(&mark)
+        is_width || View::from_name(mark).is_some() || Theme::NAMES.contains(&mark)
     })
 }

@@ -6,9 +6,9 @@ use super::fact::DIGITS;
 use super::layer::Layer;
 use crate::pictures::drawing::Theme;
 use crate::pictures::output::png::MAX_SIDE;
-use crate::products::figure::Kind;
+use crate::products::figure::{Kind, View};
 use crate::read::{
-    self, Dialect, Expected, Mark, Mistake, Node, NodeKind, Notation, Read, Reader, Trail, from_text, read_keys,
+    self, Dialect, Expected, Mark, Mistake, Node, NodeKind, Notation, Read, Reader, Trail, from_text, read_keys, word,
 };
 
 /// The name of the settings file.
@@ -20,8 +20,9 @@ pub const SETTINGS_FILE: &str = "drystone-snapshots.toml";
 pub struct Settings {
     /// The layers to compare.
     pub layers: Vec<Layer>,
-    /// The kinds of figures. The first kind is stored as `name.svg`, every other kind as `name.KIND.svg`.
-    pub kinds: Vec<Kind>,
+    /// The kinds of figures, also with what they show, such as `mechanism-tilt`. The first kind is stored as `name.svg`,
+    /// every other kind as `name.KIND.svg`.
+    pub kinds: Vec<View>,
     /// The names of the themes. The first theme is stored as `name.png`, every other theme as `name.THEME.png`. Only
     /// the first theme is stored as SVG.
     pub themes: Vec<String>,
@@ -48,7 +49,7 @@ impl Default for Settings {
     fn default() -> Settings {
         Settings {
             layers: Layer::ALL.to_vec(),
-            kinds: vec![Kind::Forces],
+            kinds: vec![Kind::Forces.into()],
             themes: vec![Theme::NAMES[0].into()],
             widths: Vec::new(),
             digits: DIGITS,
@@ -63,10 +64,14 @@ impl Default for Settings {
 
 read_keys! {
     Settings {
-        layers as |r, node, at| named(r, node, at, &Layer::ALL.map(|layer| (layer.name(), layer))),
-        kinds as |r, node, at| named(r, node, at, &Kind::ALL.map(|kind| (kind.name(), kind))),
+        layers as |r, node, at| {
+            let layers = Layer::ALL.map(|layer| (layer.name(), layer));
+            named(r, node, at, |r, node, at| r.choice(node, at, &layers))
+        },
+        kinds as |r, node, at| views(r, node, at),
         themes as |r, node, at| {
-            let names = named(r, node, at, &Theme::NAMES.map(|name| (name, name)))?;
+            let themes = Theme::NAMES.map(|name| (name, name));
+            let names = named(r, node, at, |r, node, at| r.choice(node, at, &themes))?;
             Some(names.into_iter().map(String::from).collect())
         },
         widths as |r, node, at| distinct(r, node, at, |r, node, at| r.whole_within(node, at, [16, MAX_SIDE])),
@@ -87,13 +92,25 @@ fn named<'s, T: PartialEq + Copy>(
     r: &mut Reader<'s>,
     node: &'s Node<'s>,
     at: &Trail<'_>,
-    choices: &[(&str, T)],
+    read: impl FnMut(&mut Reader<'s>, &'s Node<'s>, &Trail<'_>) -> Option<T>,
 ) -> Option<Vec<T>> {
     if matches!(&node.kind, NodeKind::List(list) if list.len() == 0) {
         r.wrong(node, at, Expected::Other("a list that is not empty, or no such key for the default"));
         return None;
     }
-    distinct(r, node, at, |r, node, at| r.choice(node, at, choices))
+    distinct(r, node, at, read)
+}
+
+/// Reads a list of kinds of figures.
+fn views<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<Vec<View>> {
+    let mut shown: Vec<View> = Vec::new();
+    for view in named(r, node, at, word::<View>)? {
+        // Two kinds of the last version may be one kind now.
+        if !shown.iter().any(|other| other.name() == view.name()) {
+            shown.push(view);
+        }
+    }
+    Some(shown)
 }
 
 /// Reads a list of values, each at most once.
@@ -113,6 +130,12 @@ fn distinct<'s, T: PartialEq>(
 }
 
 impl Settings {
+    /// Returns what to write instead of names of the last version.
+    pub fn notes(&self) -> Vec<String> {
+        let note = |view: &View| Some(view.note()?.replace("--kind", "the kind"));
+        self.kinds.iter().filter_map(note).collect()
+    }
+
     /// Reads the text of a settings file. Keys that are missing have their default values.
     ///
     /// # Errors

@@ -38,6 +38,12 @@ pub fn conditions(found: &FrameAnalysis, conditions: impl IntoIterator<Item = Co
     (!names.is_empty()).then(|| listed(&names))
 }
 
+/// Names what the margin `friction_factor` multiplies: `its friction`, or `the friction of head joints`.
+pub fn factored_friction(scene: &Scene) -> String {
+    let sets: Vec<String> = scene.factored_sets().map(line).collect();
+    if sets.is_empty() { "its friction".to_owned() } else { format!("the friction of {}", listed(&sets)) }
+}
+
 /// Returns a line for each case with its verdict and its margin, the worst case marked.
 pub fn case_lines(found: &FrameAnalysis) -> Vec<String> {
     let Some(cases) = &found.cases else {
@@ -153,6 +159,25 @@ pub fn removable_phrases(scene: &Scene, rows: &[Removable]) -> Vec<String> {
     phrases
 }
 
+/// Says for each block whether it may leave, with what help, and with which least force a robot must hold it otherwise:
+/// the cells of the rows of a table.
+#[cfg(any(feature = "report", feature = "cli"))]
+pub fn removable_rows(scene: &Scene, rows: &[Removable]) -> Vec<[String; 3]> {
+    let name = |block: BlockId| scene.blocks[block.0].id.clone();
+    let force = |newtons: f64| quantity(newtons, scene.units.force());
+    let row = |row: &Removable| {
+        let may = match (row.rest, row.help) {
+            (Verdict::Stable, _) => "yes".to_owned(),
+            (Verdict::Undecided, _) => "undecided".to_owned(),
+            (_, Some(help)) => format!("while a robot holds {} with {}", name(help.block), force(help.force)),
+            (_, None) => "no".to_owned(),
+        };
+        let held = row.force.filter(|force| *force > 0.0).map_or(String::new(), force);
+        [name(row.block), may, held]
+    };
+    rows.iter().map(row).collect()
+}
+
 /// At most this many blocks of a motion are named.
 const MAX_MOVING_NAMED: usize = 4;
 
@@ -180,7 +205,7 @@ fn reach_row(scene: &Scene, change: &Change) -> String {
     let blocks = listed(&change.blocks.iter().map(name).collect::<Vec<_>>());
     let Some(least) = change.least else {
         let what = match change.what {
-            ChangeKind::Friction => "friction",
+            ChangeKind::Friction | ChangeKind::FrictionFactor => "friction",
             ChangeKind::Thickness => "thickness",
             ChangeKind::Weight => "weight on one block",
             ChangeKind::Hold => "force on one block",
@@ -199,6 +224,7 @@ fn reach_row(scene: &Scene, change: &Change) -> String {
     };
     match change.what {
         ChangeKind::Friction => format!("friction {} at all joints", three_up(least)),
+        ChangeKind::FrictionFactor => format!("{} × {}", three_up(least), factored_friction(scene)),
         ChangeKind::Thickness => format!("{} times the thickness", three_up(least)),
         ChangeKind::Weight => format!("{force} more weight on {blocks}"),
         ChangeKind::Hold => format!("a force of {force} from outside that holds {blocks}"),
@@ -260,6 +286,26 @@ pub fn movement_sentence(scene: &Scene, found: &FrameAnalysis, moved: &SupportMo
         ),
         other => format!("if {first}, {}", without_state(other)),
     }
+}
+
+/// Returns a sentence, without a full stop, about each movement of a support. With load cases, it ends with the force on the
+/// support in the other cases.
+pub fn movement_sentences(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
+    let of_cases = found.cases.iter().flat_map(|cases| cases.each.iter().enumerate().map(|own| (cases.governing, own)));
+    let others: Vec<&CaseResult> =
+        of_cases.filter(|(governing, (number, _))| governing != number).map(|(_, (_, case))| case).collect();
+    let sentence = |moved: &SupportMovement| {
+        let in_others = others.iter().filter_map(|case| {
+            let own = case.movements.iter().find(|own| own.number == moved.number)?;
+            let words = match &own.outcome {
+                MovementOutcome::Follows(cracked) => movement_force(scene, cracked),
+                other => without_state(other).to_owned(),
+            };
+            Some(format!("; in case {}: {words}", line(&case.id)))
+        });
+        movement_sentence(scene, found, moved) + &in_others.collect::<String>()
+    };
+    found.movements.iter().map(sentence).collect()
 }
 
 /// States the first movement for a headline: how wide the widest joint opens, or that the structure does not follow.

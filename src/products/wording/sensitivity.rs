@@ -3,7 +3,7 @@
 use super::failure::{named, pair};
 use super::margin::side;
 use super::number::{amount, counted, digits, round_below_in, three};
-use crate::geometry::Vector;
+use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::{
     CornerMoves, EndSensitivity, FALLS, FrameAnalysis, MarginKind, NoSensitivity, STANDS, Sensitivity, Slope,
 };
@@ -30,7 +30,7 @@ pub enum Target {
     /// The friction of all interfaces.
     AllFriction,
     /// The point of a load, by its index in the scene, along a unit vector.
-    Load(usize, Vector),
+    Load(Point, Vector),
 }
 
 /// A change that makes the structure stronger, and its effect.
@@ -181,16 +181,15 @@ fn others(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, o
         add(target, words, amount, rate);
     }
     let step = step_length(scene, frame_analysis);
-    for (load, slopes) in &end.loads {
-        if let Some((direction, rate)) = best_direction(*slopes, outward) {
-            let block = scene.loads[*load].block;
+    for load in &end.loads {
+        if let Some((direction, rate)) = best_direction(load.slopes, outward) {
             let words = format!(
                 "moving the load on {} by {} {}",
-                named(scene, BodyId::Block(block)),
+                named(scene, BodyId::Block(load.block)),
                 length(scene, step),
                 toward(direction)
             );
-            add(Target::Load(*load, direction), words, step, rate);
+            add(Target::Load(load.at, direction), words, step, rate);
         }
     }
     list
@@ -311,7 +310,7 @@ fn kinks(end: &EndSensitivity) -> usize {
     let weights = end.weights.iter().filter(|(_, slope)| is_kink(slope));
     let friction = end.friction.iter().filter(|(_, slope)| is_kink(slope));
     let loads = end.loads.iter();
-    let loads = loads.filter(|(_, slopes)| slopes.iter().any(is_kink));
+    let loads = loads.filter(|load| load.slopes.iter().any(is_kink));
     corners.count() + weights.count() + friction.count() + loads.count()
 }
 

@@ -7,7 +7,7 @@ use super::contact_list::MAX_DIRECTION;
 use super::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
 use super::naming::Naming;
 use super::subpath::{Affine, Subpath};
-use super::table::{self, Column};
+use super::table::{self, Column, Entries, is_true};
 use crate::geometry::Point;
 
 /// Reads a list of boxes. `scale` is in metres per unit.
@@ -15,7 +15,18 @@ use crate::geometry::Point;
 /// # Errors
 /// Returns the reason why a row is not a box.
 pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Result<Draft, String> {
-    let mut entries = table::entries(&[("", text)], false);
+    let is_clean = |entries: &Entries| {
+        let is_number = |(column, cell): (&Column, &String)| {
+            matches!(column, Column::Name | Column::Fixed) || table::value(cell).is_some()
+        };
+        entries.problems.is_empty() && entries.all.iter().all(|entry| entry.cells.iter().all(is_number))
+    };
+    let read = |decimal_comma: bool| table::entries(&[("", text)], decimal_comma);
+    let mut entries = read(false);
+    if !is_clean(&entries) {
+        let decimal = Some(read(true)).filter(is_clean);
+        entries = decimal.unwrap_or(entries);
+    }
     if entries.problems.is_empty() && !entries.all.iter().any(table::Entry::is_box) {
         return Err("it has no boxes: name the columns name, x, y, width, height, angle, mass, friction, fixed".into());
     }
@@ -52,9 +63,7 @@ pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Result<Draft,
             }
             _ => return Err(format!("{element}: it has no width and height above 0, and no radius")),
         };
-        let is_fixed = entry.cells.get(&Column::Fixed).is_some_and(|fixed| {
-            matches!(fixed.trim().to_lowercase().as_str(), "1" | "true" | "yes" | "fixed" | "static" | "ground" | "x")
-        });
+        let is_fixed = entry.cells.get(&Column::Fixed).is_some_and(|fixed| is_true(fixed));
         let mass = number(Column::Mass).filter(|mass| *mass > 0.0);
         let is_heavy = entry.cells.contains_key(&Column::Mass) && mass.is_none();
         let kind = if is_fixed || is_heavy { Some(Role::Ground) } else { naming.role(name) };

@@ -54,11 +54,9 @@ struct Section {
     ends: [f64; 2],
 }
 
-/// True if a JSON text contains an assembly or a model with blocks.
-pub(super) fn is_assembly(text: &str) -> bool {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let value: Value = serde_json::from_str(text).unwrap_or_default();
-    !blocks(&value).is_empty()
+/// True if a JSON value contains an assembly or a model with blocks.
+pub(super) fn is_assembly(value: &Value) -> bool {
+    !blocks(value).is_empty()
 }
 
 /// Reads an assembly, given as JSON, as the sections of its blocks in the coordinate plane with this name. `scene` has
@@ -93,10 +91,7 @@ pub(crate) fn sections(
 /// prisms perpendicular to one of the planes, if blocks lie at different depths, if they differ in thickness and
 /// `options` has no thickness, or if `--ground` or `--ignore` chooses nothing.
 pub(super) fn read(text: &str, options: &Options, planes: &[Plane]) -> Result<Imported, DrawingProblems> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let refused = |message: String, help: &str| {
-        DrawingProblems::of(vec![Remark { element: String::new(), message, help: help.into() }])
-    };
+    let refused = |message: String, help: &str| DrawingProblems::of(vec![Remark::new("", message, help)]);
     let value: Value =
         serde_json::from_str(text).map_err(|error| refused(error.to_string(), "correct the JSON text"))?;
     let solids = blocks(&value);
@@ -184,10 +179,10 @@ pub(super) fn read(text: &str, options: &Options, planes: &[Plane]) -> Result<Im
     if scene.ground.is_empty() {
         let help =
             "mark supports with is_support, or choose them with --ground: a number below, a point x,y, or below:Y";
-        remarks.push(Remark { element: String::new(), message: NO_GROUND.into(), help: help.into() });
+        remarks.push(Remark::new("", NO_GROUND, help));
         notes.extend(list());
     }
-    Ok(Imported { scene, notes, remarks, snapped: Vec::new(), left_out: Default::default() })
+    Ok(Imported { scene, notes, remarks, ..Imported::default() })
 }
 
 /// Returns a message that names the first block that is not a prism perpendicular to one of the planes. If

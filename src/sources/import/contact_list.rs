@@ -115,7 +115,7 @@ fn list(mut entries: Entries, options: &Options) -> Result<Imported, DrawingProb
         "normals are read in radians and point into the first body of a contact; body 0 is the ground".into(),
     ];
     notes.append(&mut entries.notes);
-    Ok(Imported { scene, notes, remarks: Vec::new(), snapped: Vec::new(), left_out: Default::default() })
+    Ok(Imported { scene, notes, ..Imported::default() })
 }
 
 /// Returns the name of a body; numbers are written alike, so that 1.0 is 1.

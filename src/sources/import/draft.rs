@@ -60,6 +60,12 @@ pub(super) struct Part {
     pub(super) is_fill: bool,
 }
 
+impl Remark {
+    pub(super) fn new(element: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Remark {
+        Remark { element: element.into(), message: message.into(), help: help.into() }
+    }
+}
+
 impl Part {
     /// Creates a part without clip paths, fill and values; without a role, it is a block.
     pub(super) fn new(kind: Option<Role>, name: &str, element: String, form: PartGeometry) -> Part {
@@ -76,8 +82,29 @@ impl Part {
         }
     }
 
+    /// Returns the outlines and lines; nothing for a point.
+    pub(super) fn subpaths(&self) -> &[Subpath] {
+        match &self.form {
+            PartGeometry::Subpaths(subpaths, _) => subpaths,
+            PartGeometry::Point(_) => &[],
+        }
+    }
+
+    /// Returns the bounding box; `None` for a point.
+    pub(super) fn around(&self) -> Option<Bounds> {
+        Bounds::from_points(self.subpaths().iter().flat_map(Subpath::hull))
+    }
+
+    /// Keeps the outlines for which `is_kept` holds, and returns the number of the others.
+    pub(super) fn retain(&mut self, is_kept: impl FnMut(&Subpath) -> bool) -> usize {
+        let PartGeometry::Subpaths(subpaths, _) = &mut self.form else { return 0 };
+        let before = subpaths.len();
+        subpaths.retain(is_kept);
+        before - subpaths.len()
+    }
+
     pub(super) fn is_empty(&self) -> bool {
-        matches!(&self.form, PartGeometry::Subpaths(subpaths, _) if subpaths.is_empty())
+        self.subpaths().is_empty() && !matches!(self.form, PartGeometry::Point(_))
     }
 }
 
@@ -149,7 +176,7 @@ impl Draft {
     }
 
     pub(super) fn remark(&mut self, element: impl Into<String>, message: impl Into<String>, help: impl Into<String>) {
-        self.remarks.push(Remark { element: element.into(), message: message.into(), help: help.into() });
+        self.remarks.push(Remark::new(element, message, help));
     }
 
     /// Reports an element that is left out, and counts it as one `what`, such as `line`.

@@ -28,13 +28,13 @@ impl Format {
     /// Returns the format of a JSON text by its content: a contact list, a list of boxes, an assembly of COMPAS, or else
     /// GeoJSON.
     pub fn of_json(text: &str) -> Format {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let text = table::unmarked(text);
         let value: Value = serde_json::from_str(text).unwrap_or_default();
         if value["contacts"].is_array() && value["bodies"].is_array() {
             Format::Contacts
         } else if !value.is_null() && has_boxes(text) {
             Format::Boxes
-        } else if compas::is_assembly(text) {
+        } else if compas::is_assembly(&value) {
             Format::Compas
         } else {
             Format::GeoJson

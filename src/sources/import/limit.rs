@@ -6,7 +6,7 @@
 //! structure. Such drawings are refused before the comparisons begin.
 
 use super::Remark;
-use super::draft::{Draft, Part, PartGeometry};
+use super::draft::Draft;
 use crate::geometry::Bounds;
 use crate::geometry::snap::Corner;
 
@@ -30,37 +30,26 @@ pub(super) fn problem(boxes: [Vec<Bounds>; 2]) -> Option<Remark> {
         return Some(too_many(count));
     }
     let max = MAX_PAIRS + MAX_PAIRS_PER_BODY * count;
-    boxes.into_iter().any(|boxes| pairs(boxes, max) > max).then(|| Remark {
-        element: String::new(),
-        message: format!(
-            "more than {max} pairs of its {count} outlines overlap, so they cannot be blocks side by side"
-        ),
-        help: "delete outlines that lie on top of each other".into(),
+    boxes.into_iter().any(|boxes| pairs(boxes, max) > max).then(|| {
+        let message =
+            format!("more than {max} pairs of its {count} outlines overlap, so they cannot be blocks side by side");
+        Remark::new("", message, "delete outlines that lie on top of each other")
     })
 }
 
 /// Returns the remark about a drawing with too many outlines.
 pub(super) fn too_many(count: usize) -> Remark {
-    Remark {
-        element: String::new(),
-        message: format!("the drawing has at least {count} outlines, copies included; the limit is {MAX_BODIES}"),
-        help: "import a part of it, or give layers without blocks names that begin with ignore".into(),
-    }
+    let message = format!("the drawing has at least {count} outlines, copies included; the limit is {MAX_BODIES}");
+    Remark::new("", message, "import a part of it, or give layers without blocks names that begin with ignore")
 }
 
 /// Returns a remark if the outlines, with chords at most `flatten` metres from their curves, have too many corners.
 pub(super) fn corners_problem(draft: &Draft, flatten: f64) -> Option<Remark> {
-    let of_part = |part: &Part| match &part.form {
-        PartGeometry::Subpaths(subpaths, _) => {
-            subpaths.iter().chain(&part.clips).map(|path| path.corners(flatten)).sum()
-        }
-        PartGeometry::Point(_) => 0.0,
-    };
-    let count: f64 = draft.parts.iter().map(of_part).sum();
-    (count > MAX_CORNERS).then(|| Remark {
-        element: String::new(),
-        message: format!("its outlines have {count} corners with chords for curves; the limit is {MAX_CORNERS}"),
-        help: "give a larger --flatten, or import a part of it".into(),
+    let paths = draft.parts.iter().flat_map(|part| part.subpaths().iter().chain(&part.clips));
+    let count: f64 = paths.map(|path| path.corners(flatten)).sum();
+    (count > MAX_CORNERS).then(|| {
+        let message = format!("its outlines have {count} corners with chords for curves; the limit is {MAX_CORNERS}");
+        Remark::new("", message, "give a larger --flatten, or import a part of it")
     })
 }
 

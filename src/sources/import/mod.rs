@@ -45,7 +45,7 @@ use choice::Chosen;
 #[cfg(feature = "python")]
 pub(crate) use compas::sections;
 pub use draft::Remark;
-use draft::{Draft, PartGeometry, Role, Scale};
+use draft::{Draft, Role, Scale};
 pub use format::Format;
 use naming::Naming;
 use outline::Outlines;
@@ -114,7 +114,7 @@ impl Options {
 }
 
 /// The result of an import.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Imported {
     /// The scene file. It is valid: [`Scene::from_json`] accepts its text.
@@ -170,7 +170,7 @@ impl DrawingProblems {
     }
 
     fn new(why: impl Into<String>) -> DrawingProblems {
-        DrawingProblems::of(vec![Remark { element: String::new(), message: why.into(), help: String::new() }])
+        DrawingProblems::of(vec![Remark::new("", why, "")])
     }
 }
 
@@ -198,17 +198,20 @@ impl DrawingProblems {
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported, DrawingProblems> {
-    let problems = option_problems(options);
-    if !problems.is_empty() {
-        return Err(DrawingProblems::of(problems));
-    }
-    let read = |format: Format| read_as(text, format, options);
-    read(format).map_err(|problems| match Format::of_text(text).filter(|found| *found != format) {
-        Some(found) => DrawingProblems::of(vec![Remark {
-            element: String::new(),
-            message: format!("it is not {}: this is {}", format.name(), found.name()),
-            help: format!("import it as {}: rename the file, or give --format", found.name()),
-        }]),
+    check_options(options)?;
+    let text = table::unmarked(text);
+    // Spreadsheets and databases write outlines as a column of well-known text, and simulators write boxes.
+    let format = match format {
+        Format::Contacts if wkt::is_table(text) => Format::Wkt,
+        Format::Contacts if format::has_boxes(text) => Format::Boxes,
+        format => format,
+    };
+    read_as(text, format, options).map_err(|problems| match Format::of_text(text).filter(|found| *found != format) {
+        Some(found) => DrawingProblems::of(vec![Remark::new(
+            "",
+            format!("it is not {}: this is {}", format.name(), found.name()),
+            format!("import it as {}: rename the file, or give --format", found.name()),
+        )]),
         None => problems,
     })
 }
@@ -219,10 +222,7 @@ pub fn import(text: &str, format: Format, options: &Options) -> Result<Imported,
 /// # Errors
 /// Returns an error like [`import`].
 pub fn import_files(files: &[(&str, &str)], options: &Options) -> Result<Imported, DrawingProblems> {
-    let problems = option_problems(options);
-    if !problems.is_empty() {
-        return Err(DrawingProblems::of(problems));
-    }
+    check_options(options)?;
     let other =
         files.iter().find_map(|file| Some((file.0, Format::of_text(file.1)?)).filter(|f| f.1 != Format::Contacts));
     if let Some((name, format)) = other {
@@ -238,12 +238,6 @@ fn read_as(text: &str, format: Format, options: &Options) -> Result<Imported, Dr
     if format != Format::Svg && options.frame.is_some() {
         return Err(DrawingProblems::new("--frame needs a figure by drystone; this drawing has no frames"));
     }
-    // Spreadsheets and databases write outlines as a column of well-known text, and simulators write boxes.
-    let format = match format {
-        Format::Contacts if wkt::is_table(text) => Format::Wkt,
-        Format::Contacts if format::has_boxes(text) => Format::Boxes,
-        format => format,
-    };
     if options.flip_y && matches!(format, Format::Contacts | Format::Compas) {
         return Err(DrawingProblems::new("--flip-y turns drawings upside down; this file is none"));
     }
@@ -265,12 +259,7 @@ fn complete(imported: Imported) -> Result<Imported, DrawingProblems> {
     let Err(problems) = Scene::from_json(&imported.scene.to_json()) else {
         return Ok(imported);
     };
-    let remark = |p: &crate::mechanics::scene::Problem| Remark {
-        element: p.path.clone(),
-        message: p.message.clone(),
-        help: p.help.clone(),
-    };
-    Err(DrawingProblems::of(problems.list.iter().map(remark).collect()))
+    Err(DrawingProblems::of(problems.list.into_iter().map(|p| Remark::new(p.path, p.message, p.help)).collect()))
 }
 
 /// If no element of `draft` is ground, and no value in `chosen` makes one ground, reads the drawing again with the rule
@@ -314,11 +303,8 @@ fn read_draft(text: &str, format: Format, options: &Options, naming: &Naming<'_>
     let mut draft = match format {
         Format::Svg => svg::read(text, scale, options.frame, naming),
         Format::Dxf => dxf::read(text, scale, naming),
-        Format::GeoJson => {
-            let is_given = options.scale.is_some();
-            scaled(&|metres| geojson::read(text, metres, is_given, naming))
-        }
-        Format::Wkt => scaled(&|metres| Ok(wkt::read(text, metres, naming))),
+        Format::GeoJson => scaled(&|metres| geojson::read(text, metres, options.scale.is_some(), naming)),
+        Format::Wkt => scaled(&|metres| wkt::read(text, metres, options.scale.is_some(), naming)),
         Format::Boxes => scaled(&|metres| box_list::read(text, metres, naming)),
         Format::Contacts | Format::Compas => Err("it is not a drawing".into()),
     }?;
@@ -329,35 +315,31 @@ fn read_draft(text: &str, format: Format, options: &Options, naming: &Naming<'_>
 }
 
 /// Returns a problem for each option that is not a valid length or scale.
-fn option_problems(options: &Options) -> Vec<Remark> {
-    let mut problems = Vec::new();
-    let mut check = |name: &str, value: Option<f64>, zero: bool| {
-        let Some(value) = value else { return };
-        if !(value.is_finite() && (value > 0.0 || (zero && value == 0.0))) {
-            problems.push(Remark {
-                element: format!("--{name}"),
-                message: format!("{value} is not a valid value"),
-                help: if zero { "give 0 or more" } else { "give more than 0" }.into(),
-            });
-        }
+fn check_options(options: &Options) -> Result<(), DrawingProblems> {
+    let all = [
+        ("--scale", options.scale),
+        ("--scale 1:N", options.ratio),
+        ("--flatten", options.flatten),
+        ("--gap", options.gap),
+    ];
+    let wrong = |(name, value): (&str, Option<f64>)| {
+        let (value, zero) = (value?, name == "--gap");
+        let help = if zero { "give 0 or more" } else { "give more than 0" };
+        let is_valid = value.is_finite() && (value > 0.0 || (zero && value == 0.0));
+        (!is_valid).then(|| Remark::new(name, format!("{value} is not a valid value"), help))
     };
-    check("scale", options.scale, false);
-    check("scale 1:N", options.ratio, false);
-    check("flatten", options.flatten, false);
-    check("gap", options.gap, true);
-    problems
+    let problems: Vec<Remark> = all.into_iter().filter_map(wrong).collect();
+    if problems.is_empty() { Ok(()) } else { Err(DrawingProblems::of(problems)) }
 }
 
 /// Returns a remark if the outlines are not a structure: if there is no block, or if too many outlines overlap.
 fn structure_problem(outlines: &Outlines) -> Option<Remark> {
     if !outlines.bodies.iter().any(|b| b.kind == Role::Block) {
-        return Some(Remark {
-            element: String::new(),
-            message: "nothing in the drawing becomes a block".into(),
-            help:
-                "draw blocks as closed outlines, in layers whose names do not begin with ground, robot, ignore or guide"
-                    .into(),
-        });
+        return Some(Remark::new(
+            "",
+            "nothing in the drawing becomes a block",
+            "draw blocks as closed outlines, in layers whose names do not begin with ground, robot, ignore or guide",
+        ));
     }
     limit::problem([Role::Block, Role::Ground].map(|kind| outlines.boxes(kind)))
 }
@@ -381,7 +363,8 @@ fn build_scene(
     let size = outline::size(&mut draft);
     let flatten = options.flatten.unwrap_or(LENGTH_TOL * size);
     let close = options.gap.unwrap_or(LENGTH_TOL * size).min(LENGTH_TOL * size);
-    if draft.parts.iter().any(|p| matches!(&p.form, PartGeometry::Subpaths(t, _) if p.kind != Role::Robot && t.iter().any(|s| s.has_curves() && s.circle().is_none()))) {
+    let has_curves = |s: &subpath::Subpath| s.has_curves() && s.circle().is_none();
+    if draft.parts.iter().any(|p| p.kind != Role::Robot && p.subpaths().iter().any(has_curves)) {
         draft.notes.push(format!("curves are replaced by chords, at most {} m from the curve", draft::short(flatten)));
     }
     if let Some(problem) = limit::corners_problem(&draft, flatten) {
@@ -404,9 +387,7 @@ fn build_scene(
     }
     let scene = scene_file::scene(&outlines, &names, &mut draft, title, [size, gap], &options.scene);
     if scene.thickness.is_none() {
-        draft
-            .notes
-            .push("the blocks are 1 m thick perpendicular to the plane; --thickness sets another value".to_owned());
+        draft.notes.push("the blocks are 1 m thick perpendicular to the plane; --thickness sets another value".into());
     }
     match trial::checked(&scene.to_json()) {
         Ok(read) => {

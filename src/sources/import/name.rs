@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::draft::Role;
-use super::outline::Outlines;
+use super::outline::{Body, Outlines};
 
 /// The names of bodies and robots in the scene and in messages.
 pub(super) struct Names {
@@ -16,29 +16,19 @@ pub(super) struct Names {
 /// name is named by its number, from 1. A robot without a name is named by `r` and its number, from 0. The first part
 /// of the ground is `ground[0]`.
 pub(super) fn unique_names(outlines: &Outlines) -> Names {
-    // The name "ground" is reserved, because results use it for the ground.
-    let mut taken = TakenNames::with("ground");
-    let given_names: BTreeSet<&str> = outlines.bodies.iter().map(|b| b.name.as_str()).collect();
     let ground = outlines.ground();
-    let mut bodies = Vec::new();
-    for (i, body) in outlines.bodies.iter().enumerate() {
-        bodies.push(match (body.kind, body.name.as_str()) {
-            (Role::Ground, _) => format!("ground[{i}]"),
-            (_, "") => taken.first_free("", i + 1 - ground, &given_names),
-            (_, name) if taken.names.insert(name.to_owned()) => name.to_owned(),
-            (_, name) => taken.first_free(&format!("{name}-"), 2, &given_names),
-        });
-    }
+    let all: BTreeSet<&str> = outlines.bodies.iter().map(|b| b.name.as_str()).collect();
+    // The name "ground" is reserved, because results use it for the ground.
+    let mut taken = TakenNames { names: BTreeSet::from(["ground".to_owned()]), ..TakenNames::default() };
+    let body = |(i, body): (usize, &Body)| match body.kind {
+        Role::Ground => format!("ground[{i}]"),
+        _ => taken.name(&body.name, "", i + 1 - ground, &all),
+    };
+    let bodies = outlines.bodies.iter().enumerate().map(body).collect();
+    let all: BTreeSet<&str> = outlines.robots.iter().map(|r| r.name.as_str()).collect();
     let mut taken = TakenNames::default();
-    let given_names: BTreeSet<&str> = outlines.robots.iter().map(|r| r.name.as_str()).collect();
-    let mut robots = Vec::new();
-    for (i, robot) in outlines.robots.iter().enumerate() {
-        robots.push(match robot.name.as_str() {
-            "" => taken.first_free("r", i, &given_names),
-            name if taken.names.insert(name.to_owned()) => name.to_owned(),
-            name => taken.first_free(&format!("{name}-"), 2, &given_names),
-        });
-    }
+    let robots = outlines.robots.iter().enumerate();
+    let robots = robots.map(|(i, robot)| taken.name(&robot.name, "r", i, &all)).collect();
     Names { bodies, robots }
 }
 
@@ -51,8 +41,13 @@ struct TakenNames {
 }
 
 impl TakenNames {
-    fn with(name: &str) -> TakenNames {
-        TakenNames { names: BTreeSet::from([name.to_owned()]), ..TakenNames::default() }
+    /// Returns a unique name: the given one, perhaps with a number; without a given one, `stem` and a number from `from`.
+    fn name(&mut self, given: &str, stem: &str, from: usize, all: &BTreeSet<&str>) -> String {
+        match given {
+            "" => self.first_free(stem, from, all),
+            _ if self.names.insert(given.to_owned()) => given.to_owned(),
+            _ => self.first_free(&format!("{given}-"), 2, all),
+        }
     }
 
     /// Returns `stem` with the first number, from `from` on, that makes a free name. A name is free if it is neither

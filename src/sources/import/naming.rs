@@ -8,29 +8,8 @@ use super::choice::{Choice, Chosen};
 use super::draft::Role;
 
 /// Words that usually name the ground, in lower case. They are used only for drawings without other ground.
-const GROUND_WORDS: [&str; 21] = [
-    "abutment",
-    "abutments",
-    "bedrock",
-    "boden",
-    "earth",
-    "footing",
-    "footings",
-    "foundation",
-    "foundations",
-    "fundament",
-    "pier base",
-    "pier bases",
-    "soil",
-    "sol",
-    "springing",
-    "suelo",
-    "support",
-    "supports",
-    "terrain",
-    "terreno",
-    "widerlager",
-];
+const GROUND_WORDS: &str = "abutment,abutments,bedrock,boden,earth,footing,footings,foundation,foundations,fundament,\
+    pier base,pier bases,soil,sol,springing,suelo,support,supports,terrain,terreno,widerlager";
 /// The largest number of names that are kept for messages.
 const MAX_KEPT_NAMES: usize = 1000;
 
@@ -134,7 +113,9 @@ fn same(a: &str, b: &str) -> bool {
 /// True if a name is a word for the ground, perhaps followed by a number or other words: `Abutments`, `support_2`.
 fn is_ground_word(name: &str) -> bool {
     let name = name.to_lowercase();
-    GROUND_WORDS.iter().any(|word| name.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphabetic)))
+    GROUND_WORDS
+        .split(',')
+        .any(|word| name.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphabetic)))
 }
 
 #[cfg(test)]

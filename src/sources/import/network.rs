@@ -122,20 +122,13 @@ fn faces_between(draft: &mut Draft, lines: Vec<Line>, tolerance: f64) -> Vec<Lin
     lengths.sort_by(f64::total_cmp);
     let tolerance = tolerance.min(MAX_SHARE_OF_LENGTH * lengths[lengths.len() / 20]);
     let boxes = BoxIndex::new(lines.iter().map(|line| around(&line.curve.hull())).collect(), |b| *b);
-    let is_near = |part: &&Part| match &part.form {
-        PartGeometry::Subpaths(rings, _) => {
-            part.kind != Role::Robot
-                && rings.iter().any(|r| boxes.intersecting(around(&r.hull()).grown(tolerance)).next().is_some())
-        }
-        PartGeometry::Point(_) => false,
-    };
-    let near: Vec<usize> = (0..draft.parts.len()).filter(|i| is_near(&&draft.parts[*i])).collect();
+    let touches = |ring: &Subpath| boxes.intersecting(around(&ring.hull()).grown(tolerance)).next().is_some();
+    let is_near = |part: &Part| part.kind != Role::Robot && part.subpaths().iter().any(touches);
+    let near: Vec<usize> = (0..draft.parts.len()).filter(|i| is_near(&draft.parts[*i])).collect();
     // The lines come first, then the outlines near them.
     let mut curves: Vec<(usize, &Subpath)> = lines.iter().enumerate().map(|(i, line)| (i, &line.curve)).collect();
     for (k, i) in near.iter().enumerate() {
-        if let PartGeometry::Subpaths(rings, _) = &draft.parts[*i].form {
-            curves.extend(rings.iter().map(|ring| (lines.len() + k, ring)));
-        }
+        curves.extend(draft.parts[*i].subpaths().iter().map(|ring| (lines.len() + k, ring)));
     }
     let Some(edges) = split(&curves, tolerance) else {
         let help = "give layers without blocks names that begin with ignore";
@@ -186,24 +179,18 @@ fn faces_between(draft: &mut Draft, lines: Vec<Line>, tolerance: f64) -> Vec<Lin
             spaces += 1;
         }
     }
-    let used: BTreeSet<usize> = edges
-        .iter()
-        .zip(&alive)
-        .filter(|(_, alive)| **alive)
-        .flat_map(|(edge, _)| edge.owners.iter().copied())
-        .collect();
+    let living = edges.iter().zip(&alive).filter(|(_, alive)| **alive);
+    let used: BTreeSet<usize> = living.flat_map(|(edge, _)| edge.owners.iter().copied()).collect();
     if spaces > 0 {
         draft.notes.push(format!(
             "outlines between lines that meet: {spaces}; if one is an opening, leave it out with --ignore X,Y"
         ));
     }
     let cut: BTreeSet<usize> = near.into_iter().zip(is_cut).filter(|(_, is_cut)| *is_cut).map(|(i, _)| i).collect();
-    let names: Vec<&str> = cut.iter().map(|i| draft.parts[*i].element.as_str()).collect();
-    if !names.is_empty() {
-        draft.notes.push(format!(
-            "cut along the lines that cross it: {}",
-            crate::text::first_of(names.iter().copied(), super::MAX_NAMES)
-        ));
+    if !cut.is_empty() {
+        let names: Vec<&str> = cut.iter().map(|i| draft.parts[*i].element.as_str()).collect();
+        let names = crate::text::first_of(names, super::MAX_NAMES);
+        draft.notes.push(format!("cut along the lines that cross it: {names}"));
     }
     let mut number = 0;
     draft.parts.retain(|_| {
@@ -401,9 +388,8 @@ fn outline(walk: &Walk, edges: &[Edge]) -> Subpath {
 
 /// Returns points along the outlines of a part.
 fn sampled(part: &Part, tolerance: f64) -> Vec<Vec<Point>> {
-    let PartGeometry::Subpaths(rings, _) = &part.form else { return Vec::new() };
     let along = |ring: &Subpath| ring.starts().flat_map(|(from, s)| points_along(from, &s, tolerance)).collect();
-    rings.iter().map(along).collect()
+    part.subpaths().iter().map(along).collect()
 }
 
 fn points_along(from: Point, segment: &Segment, tolerance: f64) -> Vec<Point> {

@@ -48,9 +48,9 @@ pub(super) struct Robot {
 /// Removes parts with coordinates that are too large or not numbers. Returns the size of the drawing: the diagonal of
 /// the bounding box of all blocks, in metres.
 pub(super) fn size(draft: &mut Draft) -> f64 {
-    let hull = |part: &Part| match &part.form {
-        PartGeometry::Subpaths(subpaths, _) => subpaths.iter().flat_map(Subpath::hull).collect(),
-        PartGeometry::Point(at) => vec![*at],
+    let hull = |part: &Part| -> Vec<Point> {
+        let point = if let PartGeometry::Point(at) = part.form { Some(at) } else { None };
+        part.subpaths().iter().flat_map(Subpath::hull).chain(point).collect()
     };
     let mut around: Option<Bounds> = None;
     let (mut kept, mut out) = (Vec::new(), Vec::new());

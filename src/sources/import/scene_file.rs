@@ -81,20 +81,11 @@ fn ground_entry(body: &Body, round: &Rounding) -> GroundEntry {
 /// Returns the robots, each with the block that it holds: the block that contains its centre. A robot without such a
 /// block is reported.
 fn robots(outlines: &Outlines, names: &Names, draft: &mut Draft, round: &Rounding) -> Vec<RobotEntry> {
-    let polygons: Vec<(usize, Bounds, Polygon)> = outlines
-        .bodies
-        .iter()
-        .enumerate()
-        .filter(|(_, b)| b.kind == Role::Block)
-        .filter_map(|(i, b)| Some((i, b.polygon()?)))
-        .map(|(i, polygon)| (i, polygon.bounds(), polygon))
-        .collect();
+    let blocks = outlines.bodies.iter().enumerate().filter(|(_, b)| b.kind == Role::Block);
+    let polygons: Vec<(usize, Polygon)> = blocks.filter_map(|(i, b)| Some((i, b.polygon()?))).collect();
     let mut entries = Vec::new();
     for (robot, name) in outlines.robots.iter().zip(&names.robots) {
-        let held = polygons.iter().find(|(_, bounds, p)| {
-            let at = Bounds { min: robot.at, max: robot.at };
-            bounds.intersects(at) && p.contains(robot.at)
-        });
+        let held = polygons.iter().find(|(_, polygon)| polygon.contains(robot.at));
         if held.is_none() {
             let message = format!(
                 "its centre ({}, {}) m is in no block, so the robot holds nothing",

@@ -7,9 +7,6 @@ use super::outline::{Body, Outlines};
 use crate::geometry::snap::{self, Rings};
 use crate::geometry::{Bounds, Tolerance};
 
-/// If more bodies than this are left as drawn, they share one remark.
-const MAX_LISTED_BODIES: usize = 12;
-
 impl Outlines {
     /// Snaps together edges and corners that are at most `gap` metres apart. Returns the bodies that were moved.
     pub(super) fn snap(&mut self, draft: &mut Draft, names: &Names, gap: f64) -> Vec<Snapped> {
@@ -25,7 +22,13 @@ impl Outlines {
         let moved_from = self.bodies.iter().position(|body| body.kind == Role::Block).unwrap_or(0);
         let gaps = snap::Gaps { moved_from, ..snap::Gaps::new(&gaps) };
         let outcome = snap::snapped(&rings, gaps, &fixed, 0.5 * self.tolerance() / gap);
-        self.remark_kept(draft, &outcome.kept);
+        for body in &outcome.kept {
+            draft.remark(
+                &self.bodies[*body].element,
+                "it would change its shape or overlap its neighbours more if it were snapped; left as drawn",
+                "draw it closer to its neighbours, or use another --gap",
+            );
+        }
         let described = |moved: &snap::Moved| Snapped {
             body: names.bodies[moved.body].clone(),
             element: self.bodies[moved.body].element.clone(),
@@ -39,26 +42,6 @@ impl Outlines {
             body.rings = rings;
         }
         snapped
-    }
-
-    /// Adds remarks about the bodies `kept`, which were not snapped. More than 12 bodies share one remark.
-    fn remark_kept(&self, draft: &mut Draft, kept: &[usize]) {
-        if kept.len() > MAX_LISTED_BODIES {
-            let message = format!(
-                "{} bodies would change their shape or overlap their neighbours more if they were snapped; left as drawn",
-                kept.len()
-            );
-            let help = "draw them closer to their neighbours, or use another --gap";
-            draft.remark("", message, help);
-            return;
-        }
-        for body in kept {
-            draft.remark(
-                &self.bodies[*body].element,
-                "it would change its shape or overlap its neighbours more if it were snapped; left as drawn",
-                "draw it closer to its neighbours, or use a smaller --gap",
-            );
-        }
     }
 
     /// Returns the depth of overlap, in metres, that a scene of these blocks tolerates.

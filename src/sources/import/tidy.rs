@@ -66,7 +66,7 @@ fn key(subpath: &Subpath) -> Places {
 
 /// Leaves out the boundaries of hatches that fill a drawn outline.
 pub(super) fn leave_fills_out(draft: &mut Draft) {
-    let mut drawn: Vec<Bounds> = draft.parts.iter().filter(|part| !part.is_fill).filter_map(around).collect();
+    let mut drawn: Vec<Bounds> = draft.parts.iter().filter(|part| !part.is_fill).filter_map(Part::around).collect();
     drawn.sort_by(|a, b| a.min.x.total_cmp(&b.min.x));
     let coincides = |own: Bounds| {
         let tolerance = COINCIDENCE_TOL * own.diagonal();
@@ -76,21 +76,12 @@ pub(super) fn leave_fills_out(draft: &mut Draft) {
     };
     let mut filled = 0;
     for part in draft.parts.iter_mut().filter(|part| part.is_fill) {
-        let PartGeometry::Subpaths(subpaths, _) = &mut part.form else { continue };
-        let before = subpaths.len();
-        subpaths.retain(|s| Bounds::from_points(s.hull()).is_some_and(|own| !coincides(own)));
-        filled += before - subpaths.len();
+        filled += part.retain(|s| Bounds::from_points(s.hull()).is_some_and(|own| !coincides(own)));
     }
     draft.parts.retain(|part| !part.is_empty());
-    let blocks: Vec<&str> = draft
-        .parts
-        .iter()
-        .filter(|part| part.is_fill && part.kind == Role::Block)
-        .map(|part| part.element.as_str())
-        .collect();
-    if let [first, ..] = blocks[..] {
-        let (first, message) =
-            (first.to_owned(), format!("hatches without a drawn outline become blocks: {}", blocks.len()));
+    let mut blocks = draft.parts.iter().filter(|part| part.is_fill && part.kind == Role::Block);
+    if let Some(first) = blocks.next().map(|part| part.element.clone()) {
+        let message = format!("hatches without a drawn outline become blocks: {}", 1 + blocks.count());
         draft.remark(first, message, "if they show fill, leave them out with --ignore and the name of their layer");
     }
     if filled > 0 {
@@ -102,7 +93,7 @@ pub(super) fn leave_fills_out(draft: &mut Draft) {
 /// most [`MAX_BORDERS`] are left out. With `pages_only`, a rectangle around all else stays, because lines may cut it.
 pub(super) fn leave_frames_out(draft: &mut Draft, pages_only: bool) {
     for _ in 0..MAX_BORDERS {
-        let boxes: Vec<Option<Bounds>> = draft.parts.iter().map(around).collect();
+        let boxes: Vec<Option<Bounds>> = draft.parts.iter().map(Part::around).collect();
         let is_block = |i: &usize| draft.parts[*i].kind == Role::Block;
         let blocks: Vec<usize> = (0..boxes.len()).filter(is_block).collect();
         let holds_all = |own: Bounds, frame: usize| {
@@ -129,17 +120,8 @@ pub(super) fn leave_frames_out(draft: &mut Draft, pages_only: bool) {
 /// True if the outline of a part is an upright rectangle that fills the box `own`.
 fn is_rectangle(part: &Part, own: Bounds) -> bool {
     // A rectangle with a hole is a stone around others.
-    let PartGeometry::Subpaths(subpaths, _) = &part.form else { return false };
-    let [outline] = &subpaths[..] else { return false };
+    let [outline] = part.subpaths() else { return false };
     let corners: Vec<Point> = outline.starts().map(|(from, _)| from).chain([outline.end()]).collect();
     let twice: f64 = corners.windows(2).map(|pair| crate::geometry::cross(pair[0] - own.min, pair[1] - own.min)).sum();
     corners.len() <= 5 && !outline.has_curves() && twice.abs() / 2.0 > RECTANGLE_SHARE * own.width() * own.height()
-}
-
-/// Returns the bounding box of a part; `None` for a point.
-fn around(part: &Part) -> Option<Bounds> {
-    match &part.form {
-        PartGeometry::Subpaths(subpaths, _) => Bounds::from_points(subpaths.iter().flat_map(Subpath::hull)),
-        PartGeometry::Point(_) => None,
-    }
 }

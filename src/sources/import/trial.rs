@@ -6,7 +6,7 @@ use super::draft::{Draft, short};
 use super::name::Names;
 use super::outline::{Body, Outlines};
 use super::{Remark, scene_file};
-use crate::geometry::{ConvexPieces, Point, Polygon, overlap};
+use crate::geometry::{ConvexPieces, Polygon, overlap};
 use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{BlockId, BodyId, Code, Place, Problem, Scene, SceneError};
 use crate::mechanics::statics::interface::Interfaces;
@@ -80,7 +80,7 @@ impl Trial<'_> {
         };
         let list = first_of(pairs.iter().map(named).collect::<Vec<String>>(), MAX_LISTED_OVERLAPS);
         let message = format!("{} pairs of bodies overlap, by up to {} m: {list}", pairs.len(), short(deepest));
-        Some(Remark { element: String::new(), message, help })
+        Some(Remark::new("", message, help))
     }
 
     /// Returns a note about blocks that touch no other body, which names a gap that would join them. `None` if every
@@ -134,16 +134,13 @@ fn alone(scene: &Scene) -> Vec<usize> {
 
 /// Returns the distance of a body from the nearest other body, in metres.
 fn nearest(polygons: &[Polygon], own: usize) -> f64 {
-    let corners = |polygon: &Polygon| polygon.rings().iter().flatten().copied().collect::<Vec<Point>>();
-    let apart = |corners: &[Point], polygon: &Polygon| {
-        let distances = polygon.edges().flat_map(|edge| corners.iter().map(move |corner| edge.distance(*corner)));
-        distances.fold(f64::INFINITY, f64::min)
-    };
-    let (mine, around) = (corners(&polygons[own]), polygons[own].bounds());
+    let mine = &polygons[own];
     let mut least = f64::INFINITY;
     for (i, other) in polygons.iter().enumerate() {
-        if i != own && around.grown(least).intersects(other.bounds()) {
-            least = least.min(apart(&mine, other)).min(apart(&corners(other), &polygons[own]));
+        if i != own && mine.bounds().grown(least).intersects(other.bounds()) {
+            for (one, two) in [(mine, other), (other, mine)] {
+                least = one.rings().iter().flatten().map(|corner| two.distance(*corner)).fold(least, f64::min);
+            }
         }
     }
     least

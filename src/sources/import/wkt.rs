@@ -1,8 +1,8 @@
 //! Reads well-known text into a [`Draft`]: one geometry per line, with an optional name before it, or a table with a
 //! column of well-known text.
 
-use super::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
-use super::geojson::NAME_KEYS;
+use super::draft::{Draft, FillRule, PartGeometry, Role};
+use super::geojson::{Properties, degrees_problem, labelled};
 use super::naming::Naming;
 use super::subpath::{Segment, Subpath};
 use crate::geometry::{Point, Vector, cross};
@@ -14,48 +14,62 @@ const MAX_DEPTH: usize = 50;
 const GEOMETRY_KEYS: [&str; 5] = ["wkt", "geometry", "geom", "the_geom", "wkt_geom"];
 
 /// Reads lines of well-known text (WKT), or a table with a column of it. `scale` is in metres per unit. Lines that begin
-/// with `#` are comments, and lines that cannot be read are reported.
-pub(super) fn read(text: &str, scale: f64, naming: &Naming<'_>) -> Draft {
+/// with `#` are comments, and lines that cannot be read are reported. A geometry may go on in the next line.
+///
+/// # Errors
+/// Returns a message if the coordinates look like degrees, unless the user gave the scale (`is_scale_given`).
+pub(super) fn read(text: &str, scale: f64, is_scale_given: bool, naming: &Naming<'_>) -> Result<Draft, String> {
     let mut draft = Draft::default();
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if let Some((separator, columns)) = table(text) {
         let rows = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).skip(1);
         for (number, line) in rows {
-            let cells = cells(line, separator);
-            let cell = |key: &str| {
-                let column = columns.iter().position(|c| c == key)?;
-                cells.get(column).map(|c| c.trim()).filter(|c| !c.is_empty())
-            };
-            let names: Vec<&str> = NAME_KEYS.iter().filter_map(|key| cell(key)).collect();
-            let geometry = GEOMETRY_KEYS.iter().find_map(|key| {
-                let column = columns.iter().position(|c| c.eq_ignore_ascii_case(key))?;
-                cells.get(column).map(String::as_str)
-            });
-            let number_in = |key: &str| cell(key)?.parse().ok();
-            let values = Values {
-                friction: number_in("friction"),
-                density: number_in("density"),
-                weight: number_in("weight"),
-                mass: number_in("mass"),
-            };
-            add(&mut draft, naming, number + 1, &names, geometry.unwrap_or(""), scale, values);
+            let (at, cells) = (format!("line {}", number + 1), cells(line, separator));
+            let pairs = || columns.iter().zip(&cells);
+            let given = pairs().map(|(key, cell)| (key.trim().to_owned(), cell.trim().into())).collect();
+            let about = Properties::read(&given, None, &at, naming, &mut draft);
+            let geometry = pairs().find(|(key, _)| is_column(key)).map_or("", |found| found.1);
+            add(&mut draft, naming, &at, about, geometry, scale);
         }
-        return draft;
-    }
-    for (number, line) in text.lines().enumerate() {
-        let line = line.trim();
-        if line.is_empty() || line.starts_with('#') {
-            continue;
+    } else {
+        let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).peekable();
+        while let Some((number, line)) = lines.next() {
+            if line.trim_start().starts_with('#') {
+                continue;
+            }
+            let mut whole = line.trim().to_owned();
+            let mut depth = open(&whole);
+            // A list that is still open goes on in the next line, unless another geometry begins there.
+            while depth > 0
+                && is_geometry(&whole)
+                && let Some((_, next)) = lines.next_if(|next| whole.ends_with([',', '(']) || !is_geometry(next.1))
+            {
+                depth += open(next);
+                whole = whole + " " + next.trim();
+            }
+            let (name, rest) = named(&whole);
+            let about = Properties { kind: naming.role(name), name: name.to_owned(), ..Properties::default() };
+            add(&mut draft, naming, &format!("line {}", number + 1), about, rest, scale);
         }
-        let (name, rest) = named(line);
-        add(&mut draft, naming, number + 1, &[name], rest, scale, Values::default());
     }
-    draft
+    let system = text.to_lowercase().contains("srid=4326").then_some("EPSG:4326");
+    match degrees_problem(&draft, system).filter(|_| !is_scale_given) {
+        Some(why) => Err(why),
+        None => Ok(draft),
+    }
+}
+
+/// Returns how many more parentheses a line opens than it closes.
+fn open(line: &str) -> isize {
+    line.chars().map(|c| isize::from(c == '(') - isize::from(c == ')')).sum()
 }
 
 /// True if a text is a table with a column of well-known text.
 pub(super) fn is_table(text: &str) -> bool {
-    table(text.strip_prefix('\u{feff}').unwrap_or(text)).is_some()
+    table(text).is_some()
+}
+
+fn is_column(heading: &str) -> bool {
+    GEOMETRY_KEYS.iter().any(|key| heading.trim().eq_ignore_ascii_case(key))
 }
 
 /// True if a line has the word of a geometry before a parenthesis.
@@ -70,8 +84,7 @@ pub(super) fn is_geometry(line: &str) -> bool {
 fn table(text: &str) -> Option<(char, Vec<String>)> {
     let heading = text.lines().find(|line| !line.trim().is_empty())?;
     let split = |separator| (separator, cells(heading, separator));
-    let is_geometry = |heading: &String| GEOMETRY_KEYS.iter().any(|key| heading.eq_ignore_ascii_case(key));
-    [',', ';', '\t'].map(split).into_iter().find(|(_, columns)| columns.iter().any(is_geometry))
+    [',', ';', '\t'].map(split).into_iter().find(|(_, columns)| columns.iter().any(|heading| is_column(heading)))
 }
 
 /// Splits a row of a table into cells. Cells in quotes may contain the separator; two quotes stand for one.
@@ -88,20 +101,14 @@ fn cells(line: &str, separator: char) -> Vec<String> {
     cells
 }
 
-/// Adds the geometry in the line `number` to the draft. `names` are the names that the line gives, the most important
-/// first.
-fn add(draft: &mut Draft, naming: &Naming<'_>, number: usize, names: &[&str], text: &str, scale: f64, values: Values) {
-    let name = names.first().copied().unwrap_or("");
-    let mut element = format!("line {number}");
-    if !name.is_empty() {
-        element = format!("{element} \"{name}\"");
-    }
-    let kind = names.iter().filter_map(|name| naming.role(name)).next();
-    if kind == Some(Role::Ignored) {
+/// Adds the geometry in a line to the draft.
+fn add(draft: &mut Draft, naming: &Naming<'_>, at: &str, about: Properties, text: &str, scale: f64) {
+    let element = labelled(at, &about.name);
+    if about.kind == Some(Role::Ignored) {
         draft.skip(naming.why_ignored(), element);
         return;
     }
-    let robot = kind == Some(Role::Robot);
+    let robot = about.kind == Some(Role::Robot);
     let mut reader = Reader { scale, robot, ..Reader::new(text) };
     let read = reader.geometry(0).and_then(|()| {
         if reader.rest.trim().is_empty() { Ok(()) } else { Err(reader.expected_error("the end of the line")) }
@@ -113,8 +120,7 @@ fn add(draft: &mut Draft, naming: &Naming<'_>, number: usize, names: &[&str], te
     for (what, why) in &reader.lost {
         draft.lose(what, &element, why, "");
     }
-    let part = |form| Part { values, ..Part::new(kind, name, element.clone(), form) };
-    draft.parts.extend(reader.geometries.into_iter().map(part));
+    reader.geometries.into_iter().for_each(|form| about.part(form, element.clone(), draft));
 }
 
 /// Splits a line into name and geometry, at the last semicolon or tab before the first parenthesis. The prefix
@@ -353,7 +359,7 @@ mod tests {
             SRID=25832;polygon z ((0 0 1, 1e0 0 1, 0 +1 1))\n\
             robot-1; POINT (0.2 0.3)\n\nGEOMETRYCOLLECTION(POLYGONZ((0 0 1,1 0 1,0 1 1)),POLYGON EMPTY)\n\
             guide; POLYGON((0 0,1 0,0 1))\nb; LINESTRING (0 0, 1 1)\nPOLYGON ((0 0, 1 x))\nPOLYGON EMPTY\nPOLYGON((0 0,1 0,0 1)) x\n(";
-        let draft = read(text, 1.0, &Naming::default());
+        let draft = read(text, 1.0, true, &Naming::default()).expect("readable");
         let parts: Vec<(&str, Role)> = draft.parts.iter().map(|p| (p.name.as_str(), p.kind)).collect();
         assert_eq!(
             parts,
@@ -389,7 +395,7 @@ mod tests {
         let text =
             "WKT,id,name\n\"POLYGON ((-1 -0.3,4 -0.3,4 0,-1 0))\",0,ground\n\"POLYGON ((0 0,1 0,1 0.5,0 0.5))\",1,a\n";
         assert!(is_table(text) && !is_table("a; POLYGON((0 0,1 0,0 1))"));
-        let draft = read(text, 1.0, &Naming::default());
+        let draft = read(text, 1.0, true, &Naming::default()).expect("readable");
         let parts: Vec<(&str, Role)> = draft.parts.iter().map(|p| (p.name.as_str(), p.kind)).collect();
         assert_eq!(parts, [("ground", Role::Ground), ("a", Role::Block)]);
         assert_eq!(draft.remarks, []);

@@ -46,7 +46,7 @@ fn each_condition_of_a_frame_that_stands_is_proved_by_both_checkers() {
         // With a load that nothing carries, the forces prove nothing.
         let mut wrong = certificate.clone();
         let block = certificate.frames[0].placed[0];
-        let push = LoadForm { force: [1e6, 1e6], at: [0.0, 0.5], torque: 0.0, fixed: false };
+        let push = LoadForm { force: [1e6, 1e6], at: Some([0.0, 0.5]), torque: 0.0, fixed: false };
         wrong.limits[0].change.loads = Some(vec![(block, 1.0, vec![push])]);
         let faults = wrong.check().expect("a structure");
         assert!(!faults.is_exact(), "{file}");

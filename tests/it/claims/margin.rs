@@ -106,7 +106,7 @@ fn assert_margins_are_ends(margins: &Value) {
     }
 }
 
-/// The text of a figure `--kind margin` states the interval of the result, whether or not the frame stands as it is.
+/// The text of a figure `--kind mechanism --at load-factor` states the interval of the result, whether or not the frame stands as it is.
 #[test]
 fn the_figure_of_a_margin_states_the_interval_of_the_result() {
     let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
@@ -125,8 +125,8 @@ fn the_figure_of_a_margin_states_the_interval_of_the_result() {
         let frame = &checked.json["frames"][0];
         let interval = &frame["margins"]["intervals"]["load_factor"];
         let analysis = Analysis::with(scene(&file), &options);
-        let figure_options = figure::Options::default().toward(MarginKind::LoadFactor);
-        let svg = svg::write(&figure::draw(&analysis, Kind::Margin, &figure_options));
+        let figure_options = figure::Options::default().at(drystone::figure::At::Margin(MarginKind::LoadFactor));
+        let svg = svg::write(&figure::draw(&analysis, Kind::Mechanism, &figure_options));
         let document = roxmltree::Document::parse(&svg).expect("XML");
         let parts = document.descendants().filter(|n| n.has_tag_name("text"));
         let words: Vec<&str> = parts.filter_map(|n| n.text()).collect();

@@ -1,13 +1,22 @@
 //! Figures as wide as one or two columns of a journal: labels do not lie on other texts, and texts are not cut or too
 //! small.
 
-use drystone::analysis::Analysis;
+use drystone::analysis::{Analysis, MarginKind};
 use drystone::drawing::{Group, Text};
 use drystone::figure::{self, Options};
 
 use super::{Box4, COLUMN, TWO_COLUMNS, classes, hidden, ink, of_class, panels, texts};
 use crate::lines::contributed;
 use crate::pictures::gallery;
+
+/// All kinds, the mechanisms beyond margins, and the force polygon.
+fn views() -> impl Iterator<Item = (figure::Kind, Options)> {
+    let at = |margin| (figure::Kind::Mechanism, Options::default().at(figure::At::Margin(margin)));
+    let margins = [MarginKind::Tilt, MarginKind::LoadFactor, MarginKind::HorizontalLoad, MarginKind::Friction].map(at);
+    let polygon = (figure::Kind::Thrust, Options::default().with_polygon(true));
+    let kinds = figure::Kind::ALL.into_iter().map(|kind| (kind, Options::default()));
+    kinds.chain(margins).chain([polygon])
+}
 
 #[test]
 fn no_label_lies_on_another_or_on_a_title_and_no_words_are_cut_or_tiny_in_any_kind() {
@@ -17,9 +26,8 @@ fn no_label_lies_on_another_or_on_a_title_and_no_words_are_cut_or_tiny_in_any_ki
         let options = drystone::analysis::Options::default().margins(true);
         let analysis = Analysis::with(&scene, &options);
         for width in [COLUMN, TWO_COLUMNS] {
-            for kind in figure::Kind::ALL {
-                let options = Options::default().width(width);
-                let drawing = figure::draw(&analysis, kind, &options);
+            for (kind, options) in views() {
+                let drawing = figure::draw(&analysis, kind, &options.width(width));
                 let what = format!("{name} {} {width:.0}", kind.name());
                 let page = Group { items: drawing.items.clone(), ..Group::default() };
                 for items in panels(&drawing) {

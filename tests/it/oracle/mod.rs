@@ -10,6 +10,7 @@
 pub mod balance;
 mod coarse;
 pub mod factor;
+mod question;
 pub mod random;
 mod shape;
 mod simplex;

@@ -114,11 +114,11 @@ fn a_picture_for_light_and_dark_pages_has_the_colours_of_both_themes() {
         ("stands", ""),
         ("falls", "--kind build"),
         ("falls", "--kind mechanism --text paths"),
-        ("stands", "--kind kernel --background none"),
-        ("stands", "--kind margin"),
+        ("stands", "--kind joints --background none"),
+        ("stands", "--kind mechanism --at tilt"),
         ("stands", "--kind structure"),
-        ("stands", "--kind utilisation --amounts"),
-        ("stands", "--fill stress --arrows components"),
+        ("stands", "--kind joints --amounts"),
+        ("stands", "--fill none --arrows components"),
     ] {
         let drawn =
             |theme: &str| bench.run(&format!("render {scene}.json -o - --no-source --theme {theme} {words}")).out;

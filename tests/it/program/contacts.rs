@@ -73,7 +73,7 @@ fn every_command_accepts_a_contact_list() {
     let ran = bench.run("check --margins --explain falls.json");
     assert_eq!(ran.code, 1, "{}", ran.err);
     assert_eq!(bench.run("check --json --blocks falls.json stands.json").code, 1);
-    for kind in ["forces", "flow", "mechanism", "thrust", "kernel", "utilisation", "build", "polygon", "margin"] {
+    for kind in ["forces", "flow", "mechanism", "thrust", "joints", "build", "structure"] {
         for scene in ["stands", "falls"] {
             let ran =
                 bench.run(&format!("render {scene}.json --kind {kind} --dimensions --scale-bar -o {scene}-{kind}.svg"));

@@ -125,6 +125,20 @@ fn a_figure_for_latex_contains_its_text_and_closes_its_groups() {
 }
 
 #[test]
+fn quotes_in_a_title_need_no_font_encoding_of_latex() {
+    let bench = Bench::new();
+    let scene = r#"{ "drystone": 1, "title": "the \"arch\"", "ground": [{ "polygon": [[-1,-1],[3,-1],[3,0],[-1,0]] }],
+        "blocks": [{ "id": "the \"key\"", "polygon": [[0,0],[1,0],[1,1],[0,1]] }] }"#;
+    fs::write(bench.path("quotes.json"), scene).expect("a scene");
+    let ran = bench.run("render quotes.json -o a.tikz");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let tikz = fs::read_to_string(bench.path("a.tikz")).expect("drawn");
+    let is_drawn = |line: &&str| !line.starts_with('%');
+    assert!(tikz.contains("{the \\char34{}key\\char34{}}"), "{tikz}");
+    assert!(tikz.lines().filter(is_drawn).all(|line| !line.contains('"')), "{tikz}");
+}
+
+#[test]
 fn characters_that_no_font_has_are_named_and_never_drawn_as_boxes() {
     let bench = Bench::new();
     let scene = r#"{ "drystone": 1, "title": "石塔", "ground": [{ "polygon": [[-1,-1],[3,-1],[3,0],[-1,0]] }],
@@ -248,8 +262,8 @@ fn a_long_strip_is_split_into_pages_and_a_margin_has_a_direction() {
     assert!(ran.err.contains("; the blocks are "), "{}", ran.err);
     let ran = bench.run("render stands.json --margin load-factor -o no.svg");
     assert_eq!(ran.code, 2);
-    assert!(ran.err.contains("--kind margin"), "{}", ran.err);
-    let ran = bench.run("render stands.json --kind margin --margin horizontal-load -o push.svg");
+    assert!(ran.err.contains("--kind mechanism"), "{}", ran.err);
+    let ran = bench.run("render stands.json --kind mechanism --at horizontal-load -o push.svg");
     assert_eq!(ran.code, 0, "{}", ran.err);
     let svg = fs::read_to_string(bench.path("push.svg")).expect("drawn");
     assert!(svg.contains("horizontal load, as a share of the weights: "), "{svg}");

@@ -175,8 +175,7 @@ fn every_kind_of_figure_states_what_it_shows() {
     for (kind, falls, stands) in [
         ("mechanism", "block lintel turns about a corner on block left", "there is no mechanism"),
         ("thrust", "outside the stone", "at this width"),
-        ("kernel", "no forces balance the structure", "safe part of an interface"),
-        ("utilisation", "stands at no value", "stands at any value"),
+        ("joints", "lacks a force", "of the friction is used"),
     ] {
         let ran = bench.run(&format!("render falls.json -o - --kind {kind}"));
         assert_eq!(ran.code, 0, "{kind}: {}", ran.err);
@@ -185,9 +184,25 @@ fn every_kind_of_figure_states_what_it_shows() {
         let ran = bench.run(&format!("render stands.json -o - --kind {kind}"));
         assert!(ran.out.contains(stands), "{kind}: {}", ran.out);
     }
+    // Names of the last version are understood, and a note has the new ones.
+    for (old, now) in [
+        ("--kind kernel", "--kind joints"),
+        ("--kind utilisation", "--kind joints"),
+        ("--fill stress", "--kind joints"),
+        ("--kind margin", "--kind mechanism --at tilt"),
+        ("--kind movement", "--kind mechanism --at movement"),
+        ("--kind placement", "--kind mechanism --at placement"),
+        ("--kind influence", "--kind mechanism --at vehicle"),
+        ("--kind polygon", "--kind thrust --with-polygon"),
+        ("--kind removable", "--kind structure --removable"),
+    ] {
+        let [before, after] = [old, now].map(|words| bench.run(&format!("render stands.json -o - {words}")));
+        assert_eq!((before.code, before.out), (0, after.out), "{old}");
+        assert!(before.err.contains(&format!("{old} is now {now}")) && after.err.is_empty(), "{}", before.err);
+    }
     let ran = bench.run("render stands.json -o out.svg --kind stress");
     assert_eq!(ran.code, 2);
-    assert!(ran.err.contains("mechanism") && ran.err.contains("utilisation"), "{}", ran.err);
+    assert!(ran.err.contains("mechanism") && ran.err.contains("joints"), "{}", ran.err);
     assert_eq!(bench.made(), Vec::<String>::new());
 }
 

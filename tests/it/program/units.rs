@@ -97,7 +97,7 @@ fn tables_have_the_units_of_the_file() {
     let file = lintel(1e-3, 1e3, json!({ "length": "mm", "force": "kN" }));
     let scene = Scene::from_json(&file.to_string()).expect("sound");
     let analysis = Analysis::new(&scene);
-    for kind in [Kind::Forces, Kind::Flow, Kind::Thrust, Kind::Mechanism, Kind::Kernel] {
+    for kind in [Kind::Forces, Kind::Flow, Kind::Thrust, Kind::Mechanism, Kind::Joints] {
         let svg = output::svg::write(&figure::draw(&analysis, kind, &figure::Options::default()));
         let words = svg.replace('\u{a0}', " ");
         assert!(words.contains(" kN"), "{kind:?}");

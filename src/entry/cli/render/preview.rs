@@ -26,7 +26,7 @@ use crate::entry::cli::style_args::ThemeChoice;
 use crate::entry::cli::terminal::{Terminal, uncoloured};
 use crate::entry::cli::watch;
 use crate::pictures::output::fonts::Fonts;
-use crate::products::figure::{Kind, Options};
+use crate::products::figure::{Kind, Options, View};
 use crate::products::result::quoted;
 use crate::text::Word;
 
@@ -214,7 +214,7 @@ impl Preview<'_> {
     fn prepared(&self, [scene, kind, theme]: [&str; 3]) -> Result<(PathBuf, Render, Options, Fonts), CliError> {
         let scene = scene.parse().ok().and_then(|number: usize| self.state().scenes.get(number).cloned());
         let mut render = self.render.started();
-        render.draw.figure.kind = Kind::from_name(kind).unwrap_or(render.draw.figure.kind);
+        render.draw.figure.kind = View::from_name(kind).unwrap_or(render.draw.figure.kind);
         let theme = ThemeChoice::all().into_iter().find(|choice| choice.word() == theme);
         render.draw.look.theme = theme.or(render.draw.look.theme);
         render.draw.check(Format::Svg)?;

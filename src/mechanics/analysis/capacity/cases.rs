@@ -20,10 +20,11 @@
 use super::cone::SAME_DIRECTION;
 use super::refine;
 use super::region::{RAY_LENGTH_PER_SIZE, axes, corners, half_planes, set_edges, square};
-use super::{CapacityEdge, CapacityError, CapacityShape, CapacityVertex, Cases, LoadCapacity};
+use super::{CapacityEdge, CapacityError, CapacityShape, CapacityVertex, Cases, LoadCapacity, decided};
 use crate::geometry::{Vector, cross, in_half_plane, quarter_turn, sin_cos_degrees};
-use crate::mechanics::analysis::margin::Setting;
-use crate::mechanics::statics::assembly::Assembly;
+use crate::mechanics::analysis::Verdict;
+use crate::mechanics::analysis::margin::{END_TOL, Setting};
+use crate::mechanics::statics::assembly::{Assembly, load_about};
 
 /// The longest piece into which an arc of tilts is divided, degrees.
 const MAX_ARC_DEGREES: f64 = 1.0;
@@ -96,6 +97,38 @@ fn gravities([from, to]: [f64; 2]) -> Vec<(f64, f64)> {
     let mut all = vec![(from, 1.0), (to, 1.0)];
     all.extend((0..pieces as usize).map(|k| (from + (k as f64 + 0.5) * piece, strength)));
     all
+}
+
+impl LoadCapacity {
+    /// True if an assembly, which is the frame in another condition, carries the force of each corner, just inside it, so that
+    /// it carries all forces of this set. False if this is not known, as for unbounded sets.
+    pub(in crate::mechanics::analysis) fn holds_for(&self, assembly: &Assembly) -> bool {
+        let is_plain = self.rays.is_empty() && self.robot.is_none() && self.ranges == Cases::default();
+        let Some(body) = assembly.bodies.iter().position(|body| body.block == self.block) else { return false };
+        let [at] = self.at[..] else { return false };
+        let centre = self.vertices.iter().map(|v| v.force).sum::<Vector>() / self.vertices.len().max(1) as f64;
+        is_plain
+            && self.vertices.iter().all(|vertex| {
+                let mut loaded = assembly.clone();
+                let own = &mut loaded.bodies[body];
+                let force = vertex.force + (centre - vertex.force) * END_TOL;
+                own.fixed = own.fixed.plus(load_about(own.centroid, at, force, 0.0));
+                let factor = loaded.load_factor;
+                decided(&loaded.with_load_factor(factor).components()).0 == Verdict::Stable
+            })
+    }
+
+    /// Returns the forces that a block carries in two conditions. `None` if the sets could not be intersected.
+    pub(in crate::mechanics::analysis) fn and(self, other: LoadCapacity) -> Option<LoadCapacity> {
+        let cases = self.cases + other.cases;
+        let is_empty = |own: &LoadCapacity| own.shape() == CapacityShape::Empty;
+        let both = match (is_empty(&self), is_empty(&other)) {
+            (true, _) => self,
+            (_, true) => other,
+            _ => intersection(&[self, other]).ok()?,
+        };
+        Some(LoadCapacity { cases, ..both })
+    }
 }
 
 /// Returns the intersection of several load capacities: the forces that belong to each of these sets.

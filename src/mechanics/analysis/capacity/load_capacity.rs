@@ -3,6 +3,7 @@
 use super::region;
 use super::request::Cases;
 use crate::geometry::{Point, Vector};
+use crate::mechanics::analysis::condition::Condition;
 use crate::mechanics::proof::{Motion, Proof};
 use crate::mechanics::scene::{BlockId, RobotId};
 
@@ -50,8 +51,8 @@ pub struct LoadCapacity {
     /// How the frame begins to fall whatever the force is. If each case carries some forces but no force is carried in
     /// all cases, this is the motion of one edge of one case. Empty unless the set is empty and a motion proves this.
     pub mechanism: Vec<Motion>,
-    /// The number of extreme cases of the given ranges. The structure carries each force of this result in all of
-    /// these cases. It is 1 if no range was given.
+    /// The number of extreme cases of the given ranges, in each load case and position of a vehicle. The structure carries
+    /// each force of this result in all of these cases. It is 1 without ranges and conditions.
     pub cases: usize,
     /// The ranges in which the block carries the forces; empty if no range was given.
     pub ranges: Cases,
@@ -103,6 +104,8 @@ pub struct CapacityEdge {
     pub proof: Proof,
     /// The index, from 0, of the case that this edge belongs to.
     pub case: usize,
+    /// The condition in which the frame does not carry a farther force.
+    pub condition: Condition,
 }
 
 /// The kind of set that a [`LoadCapacity`] is.

@@ -50,7 +50,16 @@ impl Analysis {
     /// Returns an error if there is no such frame, if the block is not placed in it, if the request is not valid, or if
     /// no proof was found.
     pub fn capacity(&self, frame: usize, request: &CapacityRequest) -> Result<LoadCapacity, CapacityError> {
-        capacity_of(&self.scene, &Interfaces::new(&self.scene), frame, request)
+        if !self.given().has_conditions() {
+            return capacity_of(&self.scene, &Interfaces::new(&self.scene), frame, request);
+        }
+        let alone = self.given().alone(frame).ok_or(CapacityError::NoFrame)?;
+        request.points(&alone, &alone.frames[0])?;
+        if !alone.frames[0].placed.contains(&request.block) {
+            return Err(CapacityError::NotPlaced);
+        }
+        let found = Analysis::with(alone, &Options::default().capacity(*request)).frames;
+        found.first().and_then(|found| found.capacity.clone()).ok_or(CapacityError::Undecided)
     }
 
     /// Computes the motion by which the frame falls under a force just beyond an edge of the capacity, as an elementary

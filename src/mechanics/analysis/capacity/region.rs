@@ -6,6 +6,7 @@ use super::refine::{self, Sample};
 use super::request::Cases;
 use super::{CapacityEdge, CapacityVertex, LoadCapacity, VertexForce, cone};
 use crate::geometry::{Point, Vector, cross, in_half_plane, quarter_turn};
+use crate::mechanics::analysis::condition::Condition;
 use crate::mechanics::scene::BlockId;
 
 /// Unbounded sets are cut off at this multiple of their size.
@@ -81,6 +82,7 @@ fn edge_of(line: &HalfPlane) -> CapacityEdge {
         mechanism: line.motion.clone(),
         proof: line.proof,
         case: 0,
+        condition: Condition::default(),
     }
 }
 

@@ -213,9 +213,9 @@ static ABOUT: [About; MarginKind::ALL.len()] = [
         at: "this friction",
         ends: [true, false],
         present: Some(1.0),
-        applies: Some(|trial| trial.largest_friction() > 0.0),
+        applies: Some(|trial| trial.largest_factored_friction() > 0.0),
         setting: |friction_factor| Setting { friction_factor, ..Setting::default() },
-        path: |trial, setting| Path::threshold(MarginKind::MAX_FRICTION / trial.largest_friction(), setting),
+        path: |trial, setting| Path::threshold(MarginKind::MAX_FRICTION / trial.largest_factored_friction(), setting),
         ..About::PLAIN
     },
     About { words: ["robots", "robots"], at: "this limit", ends: [true, false], ..About::PLAIN },

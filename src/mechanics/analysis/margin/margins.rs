@@ -3,12 +3,14 @@
 //! Describes the margins that are withheld: the verdicts on both sides of an end are too far apart, or no verdict shows
 //! where the frame stands.
 
-use super::interval::{End, Interval};
+use super::interval::{END_TOL, End, Interval};
 use super::kind::{MarginKind, MarginKinds};
+use super::trial::Trial;
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::analysis::condition::Condition;
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::{RobotId, digits};
+use crate::mechanics::statics::assembly::Assembly;
 
 /// The values of one parameter at which a frame stands.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +36,14 @@ impl Margin {
     /// Returns the margin in all conditions of this margin and of another one of the same kind.
     fn and(&self, other: &Margin) -> Margin {
         let interval = self.interval.clone().intersection(other.interval.clone());
-        let is_others = |own: Option<&End>, other: Option<&End>, both: Option<&End>| both == other && both != own;
+        // Of ends that differ by rounding, as those of a symmetric structure, the first decides.
+        let is_near = |own: Option<&End>, other: Option<&End>| {
+            let values = own.and_then(End::value).zip(other.and_then(End::value));
+            values.is_some_and(|(own, other)| (own - other).abs() <= END_TOL * own.abs())
+        };
+        let is_others = |own: Option<&End>, other: Option<&End>, both: Option<&End>| {
+            both == other && both != own && !is_near(own, other)
+        };
         let conditions = match interval {
             Interval::Between { .. } => {
                 let low = is_others(self.interval.low(), other.interval.low(), interval.low());
@@ -147,6 +156,22 @@ impl Margins {
         let mut notes = own.notes.clone();
         notes.extend(other.notes.iter().filter(|note| !own.notes.contains(note)).cloned());
         Margins { kinds: own.kinds, each, notes }
+    }
+
+    /// True if an assembly, which is the frame in another condition, also stands up to each end of these margins. False if
+    /// this is not known, as for the limits of robots.
+    pub(in crate::mechanics::analysis) fn hold_for(&self, assembly: &Assembly) -> bool {
+        let components = assembly.components();
+        let mut trials: Vec<Trial> = components.iter().map(|component| Trial::new(component, None)).collect();
+        self.each.iter().all(|margin| match &margin.interval {
+            Interval::Empty(_) => true,
+            _ if margin.limit.is_some() => false,
+            Interval::Undecided => false,
+            Interval::Between { low, high } => trials.iter_mut().all(|trial| {
+                let path = margin.kind.path(trial);
+                path.reaches(trial, low, -1.0) && path.reaches(trial, high, 1.0)
+            }),
+        })
     }
 
     /// Returns a sentence for each withheld margin, with the reason. `robot` returns the name of a robot.

@@ -15,10 +15,10 @@
 
 mod interval;
 mod kind;
-mod margins;
 mod trial;
 mod path;
 mod search;
+mod margins;
 mod nearest;
 mod threshold;
 mod parameter;

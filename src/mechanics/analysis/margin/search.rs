@@ -83,6 +83,24 @@ impl Path<'_> {
         self.search(trial, Bracket { inside: from, beyond: None }, outward, hint)
     }
 
+    /// True if the component stands just inside an end that was found for other loads, and from the present value up to
+    /// there.
+    pub fn reaches(&self, trial: &mut Trial, end: &End, outward: f64) -> bool {
+        let value = match (end, self.predictor) {
+            // More friction never hurts.
+            (End::Unbounded, Predictor::Tangent) => return true,
+            (End::Unbounded, Predictor::Plane) => {
+                return trial.decide(&self.grown_alone(outward)).0 == Verdict::Stable;
+            }
+            (End::Unbounded, Predictor::Arc) => return false,
+            (End::At { value, .. }, _) => *value,
+            (End::Unconfirmed { stands, .. }, _) => *stands,
+        };
+        let inside = (value - outward * END_TOL * self.size(value)).clamp(self.min_value, self.max_value);
+        let stands = self.decide_at_limit(trial, inside).0 == Verdict::Stable;
+        stands && (self.predictor != Predictor::Arc || self.fall_between(trial, [0.0, inside]).is_none())
+    }
+
     /// Finds the end of the interval in a bracket. See [`Path::end`].
     pub fn search(&self, trial: &mut Trial, bracket: Bracket, outward: f64, hint: Option<f64>) -> End {
         let end = self.confirmed(trial, bracket, outward, hint);

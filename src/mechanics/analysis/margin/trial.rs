@@ -15,7 +15,7 @@ use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::{ContactForces, Forces, GripForces, Motion, net_power};
 use crate::mechanics::scene::{Limits, RobotId};
 use crate::mechanics::solve::{ExtremeValue, Tangent};
-use crate::mechanics::statics::assembly::{Assembly, AssemblyBody, LoadVector};
+use crate::mechanics::statics::assembly::{Assembly, AssemblyBody, AssemblyContact, LoadVector};
 
 /// The number of evaluations of changed components in this process: verdicts and programs of least residual.
 static TRIALS: AtomicUsize = AtomicUsize::new(0);
@@ -154,10 +154,17 @@ impl<'a> Trial<'a> {
         self.original.contacts.iter().map(|contact| contact.friction).fold(0.0, f64::max)
     }
 
-    /// Returns the friction coefficient of the component if all its contacts have the same.
+    /// Returns the largest friction coefficient that a factor on the friction multiplies; 0 without one.
+    pub fn largest_factored_friction(&self) -> f64 {
+        let factored = self.original.contacts.iter().filter(|contact| contact.is_factored);
+        factored.map(|contact| contact.friction).fold(0.0, f64::max)
+    }
+
+    /// Returns the friction coefficient of the component if all its contacts have the same, and a factor multiplies all.
     pub fn only_friction(&self) -> Option<f64> {
         let largest = self.largest_friction();
-        self.original.contacts.iter().all(|contact| contact.friction == largest).then_some(largest)
+        let is_same = |contact: &AssemblyContact| contact.is_factored && contact.friction == largest;
+        self.original.contacts.iter().all(is_same).then_some(largest)
     }
 
     /// True if the load factor multiplies some load of the component.

@@ -19,6 +19,7 @@ use self::model::Model;
 use self::pattern::Errors;
 use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::analysis::condition::Condition;
+use crate::mechanics::analysis::margin::END_TOL;
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::mechanics::solve::{DeadlineGuard, deadline, is_late};
@@ -170,6 +171,21 @@ impl Placement {
         worse.blocks.sort_by(|a, b| a.block.cmp(&b.block).then(a.proved.total_cmp(&b.proved)));
         worse.blocks.dedup_by_key(|own| own.block);
         worse
+    }
+
+    /// True if the proved tolerance of all blocks together also holds in the condition of a scene, in which the frame is
+    /// `assembly`. False if this is not known.
+    pub(super) fn holds_for(&self, scene: &Scene, assembly: &Assembly) -> bool {
+        assembly.components().iter().all(|component| {
+            let (moments, scales) = moments_of(scene, component);
+            let is_loose = !(component.contacts.is_empty() && component.grips.is_empty());
+            if self.proved == 0.0 || !is_loose || scales.iter().all(|scale| *scale == 0.0) {
+                return true;
+            }
+            let Some(model) = Model::new(component, &moments, &scales) else { return false };
+            let aim = self.proved / model.metres * (1.0 - END_TOL);
+            aim <= model.end_of_joints() && largest_tolerance(&model, Some(aim)).proved >= aim
+        })
     }
 
     /// Returns the sense of the additional moment of each body in the pattern, 1 for anticlockwise, and the assembly with

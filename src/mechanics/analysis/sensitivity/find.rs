@@ -7,12 +7,13 @@ use super::corners::Corners;
 use super::elimination::ZERO_TOL;
 use super::rates::Rates;
 use super::state::EndState;
-use super::{CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity};
+use super::{CornerMoves, CornerSlope, EndSensitivity, LoadSlope, NoSensitivity, Sensitivity};
 use crate::mechanics::analysis::margin::{END_TOL, End, Interval, MarginKind};
 use crate::mechanics::scene::BodyId;
 use crate::mechanics::solve::is_late;
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect::FrameContext;
+use crate::mechanics::statics::interface::Interface;
 
 /// A component of a frame, and its own interval of the parameter if that is known.
 pub(in crate::mechanics::analysis) struct Part<'a> {
@@ -75,8 +76,12 @@ impl Search<'_> {
             let mut rates: Option<Vec<Rates>> = rates.collect();
             if self.kind == MarginKind::FrictionFactor {
                 // The derivatives are per unit of the multiplied coefficient: d(fμ)/dμ = f.
-                let friction = rates.iter_mut().flatten().flat_map(|rates| &mut rates.friction);
-                friction.for_each(|rate| *rate *= value);
+                let scene = self.context.scene;
+                let is_factored = |own: &Interface| scene.has_factored_friction(own.bodies, own.normal);
+                for rates in rates.iter_mut().flatten() {
+                    let each = rates.friction.iter_mut().zip(self.context.interfaces.iter());
+                    each.filter(|(_, own)| is_factored(own)).for_each(|(rate, _)| *rate *= value);
+                }
             }
             exact = state.value;
             all.push(rates.ok_or(NoSensitivity::Unsolved)?);
@@ -136,9 +141,9 @@ impl Search<'_> {
         let weights = placed.iter().map(|b| (*b, slope(weight, &|r| r.weights[b.0])));
         let loads = scene.loads().iter().enumerate();
         let loads = loads.filter(|(_, l)| placed.binary_search(&l.block).is_ok());
-        let loads = loads.map(|(k, _)| {
-            let along = [slope(load, &|r| r.loads[k].x), slope(load, &|r| r.loads[k].y)];
-            (k, along)
+        let loads = loads.map(|(k, own)| {
+            let slopes = [slope(load, &|r| r.loads[k].x), slope(load, &|r| r.loads[k].y)];
+            LoadSlope { entry: own.entry, block: own.block, at: own.at, slopes }
         });
         let sets_friction = self.kind == MarginKind::Friction;
         let interfaces = 0..if sets_friction { 0 } else { self.context.interfaces.len() };

@@ -164,9 +164,8 @@ pub struct EndSensitivity {
     pub friction: Vec<(usize, Slope)>,
     /// The derivative if all friction coefficients increase together, per unit. `None` for the margin of friction.
     pub friction_of_all: Option<Slope>,
-    /// The derivatives for each load on a placed block, with the index of the load in the scene, per metre that its
-    /// point moves along x and along y.
-    pub loads: Vec<(usize, [Slope; 2])>,
+    /// The derivatives for each load on a placed block.
+    pub loads: Vec<LoadSlope>,
 }
 
 /// How an end changes if a corner moves and the contacts are kept.
@@ -187,6 +186,20 @@ pub struct CornerSlope {
     pub with: Vec<BodyId>,
     /// In which directions the corner can move, with the derivatives per metre.
     pub moves: CornerMoves,
+}
+
+/// How a margin changes with the place of a load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LoadSlope {
+    /// The index of the entry of the load in the list of loads of the scene file.
+    pub entry: usize,
+    /// The block on which it acts.
+    pub block: BlockId,
+    /// The point at which it acts, metres.
+    pub at: Point,
+    /// The derivatives per metre that this point moves along x and along y.
+    pub slopes: [Slope; 2],
 }
 
 /// The directions in which a corner can move without opening a contact.

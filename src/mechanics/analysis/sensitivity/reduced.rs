@@ -200,7 +200,10 @@ impl Reduced {
             // each by half the length of the contact per unit.
             let (force, torque) = match case.kind {
                 MarginKind::Friction => (contact.tangent() * (side * amount), 0.0),
-                MarginKind::FrictionFactor => (contact.tangent() * (side * amount * contact.friction / value), 0.0),
+                MarginKind::FrictionFactor => {
+                    let share = if contact.is_factored { contact.friction / value } else { 0.0 };
+                    (contact.tangent() * (side * amount * share), 0.0)
+                }
                 _ => {
                     let inward = (contact.ends[1] - contact.ends[0]) * [0.5, -0.5][point];
                     let force = contact.normal + contact.tangent() * (side * contact.friction);

@@ -11,7 +11,7 @@ use crate::mechanics::scene::format::{LimitsEntry, SceneFile};
 use crate::mechanics::scene::name::Names;
 use crate::mechanics::scene::number::{at_least_zero, is_sane};
 use crate::mechanics::scene::outline::Outline;
-use crate::mechanics::scene::{BlockId, Grip, Limits, Robot, problem, shape};
+use crate::mechanics::scene::{BlockId, BodyId, Grip, Ground, JointBody, JointSet, Limits, Robot, problem, shape};
 use crate::read::Trail;
 
 impl Resolution<'_> {
@@ -72,6 +72,58 @@ impl Resolution<'_> {
         }
         pairs.sort_unstable_by_key(|(pair, _)| *pair);
         pairs
+    }
+
+    /// Returns the sets of joints. `blocks` are the names of the blocks.
+    pub(super) fn joint_sets(
+        &self,
+        findings: &mut Findings,
+        blocks: &Names<'_>,
+        ground: &[Option<Ground>],
+    ) -> Vec<JointSet> {
+        let top = Trail::Top;
+        let given: Vec<String> = self.file.joint_sets.iter().map(|set| set.id.clone()).collect();
+        ids(findings, &top.key("joint_sets"), "joint set", &given, given.iter().map(|_| true));
+        let hidden = findings.unread.hides_names("joint_sets", given.len());
+        let names = Names::new("joint set", given.iter().map(String::as_str).collect(), hidden);
+        let on = top.key("friction_factor_on");
+        let wanted = self.file.friction_factor_on.iter().enumerate();
+        let factored: Vec<usize> =
+            wanted.filter_map(|(place, name)| names.find(findings, &on.index(place), name)).collect();
+        let part =
+            |name: &str| ground.iter().position(|part| part.as_ref().is_some_and(|g| g.id.as_deref() == Some(name)));
+        let list = top.key("joint_sets");
+        let mut sets = Vec::new();
+        for (number, entry) in self.file.joint_sets.iter().enumerate() {
+            let at = list.index(number);
+            let mut set = JointSet {
+                id: entry.id.clone(),
+                direction: entry.direction,
+                bodies: None,
+                materials: None,
+                friction: at_least_zero(findings, &at, "friction", entry.friction),
+                is_factored: factored.contains(&number),
+            };
+            if let Some(given) = &entry.bodies {
+                let at = at.key("bodies");
+                let mut found = given.iter().enumerate().map(|(side, name)| match (name.as_str(), part(name)) {
+                    ("ground", _) => Some(JointBody::AnyGround),
+                    (_, Some(part)) if blocks.get(name).is_none() => Some(JointBody::Is(BodyId::Ground(part))),
+                    _ => {
+                        let block = blocks.find(findings, &at.index(side), name)?;
+                        Some(JointBody::Is(BodyId::Block(BlockId(block))))
+                    }
+                });
+                set.bodies = found.next().flatten().zip(found.next().flatten());
+            }
+            if let Some([a, b]) = &entry.materials {
+                let at = at.key("materials");
+                let a = self.materials.find(findings, &at.index(0), a);
+                set.materials = a.zip(self.materials.find(findings, &at.index(1), b));
+            }
+            sets.push(set);
+        }
+        sets
     }
 
     /// Reports ids of blocks, robots, loads and cases that are used twice, empty or reserved.

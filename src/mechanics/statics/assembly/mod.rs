@@ -124,6 +124,8 @@ pub struct AssemblyContact {
     pub normal: Vector,
     /// Friction coefficient; 0 if friction is not simulated.
     pub friction: f64,
+    /// Whether a factor on the friction multiplies this coefficient.
+    pub is_factored: bool,
 }
 
 impl AssemblyContact {
@@ -245,9 +247,9 @@ impl Assembly {
         self
     }
 
-    /// Multiplies the friction coefficient of every contact by `factor`.
+    /// Multiplies the friction coefficient of every contact that has a factor by `factor`.
     pub fn with_friction_factor(mut self, factor: f64) -> Assembly {
-        for contact in &mut self.contacts {
+        for contact in self.contacts.iter_mut().filter(|contact| contact.is_factored) {
             contact.friction *= factor;
         }
         self

@@ -97,6 +97,7 @@ fn add_contacts(
                 points: interface.ends,
                 normal: interface.normal,
                 friction: friction(interface),
+                is_factored: context.scene.has_factored_friction(interface.bodies, interface.normal),
             });
         }
     }

@@ -110,13 +110,9 @@ fn add(scene: &Scene, found: &mut Interfaces, pair: [BodyId; 2], reach: f64, cir
             continue;
         }
         kept.push(touch);
-        found.all.push(Interface {
-            bodies,
-            kind: ContactKind::Corner,
-            ends: [touch.at; 2],
-            normal: if bodies[0] == pair[0] { touch.normal } else { -touch.normal },
-            friction: scene.friction_between(bodies[0], bodies[1]),
-        });
+        let normal = if bodies[0] == pair[0] { touch.normal } else { -touch.normal };
+        let friction = scene.friction_at(bodies, normal);
+        found.all.push(Interface { bodies, kind: ContactKind::Corner, ends: [touch.at; 2], normal, friction });
     }
     // Beside a contact, a round recess leaves narrow gaps that nobody drew as contacts.
     apart.sort_by(|a, b| a.gap.total_cmp(&b.gap));

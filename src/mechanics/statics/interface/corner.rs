@@ -85,7 +85,7 @@ pub(super) fn find(scene: &Scene, known: &[Interface]) -> Vec<Interface> {
             if !is_covered {
                 ends.push([at, at]);
                 let normal = if pair[0] == tip.body { into_tip } else { -into_tip };
-                let friction = scene.friction_between(pair[0], pair[1]);
+                let friction = scene.friction_at(pair, normal);
                 found.push(Interface { bodies: pair, kind: ContactKind::Corner, ends: [at, at], normal, friction });
             }
         }

@@ -340,13 +340,9 @@ fn compare(scene: &Scene, bodies: [BodyId; 2], a: &Side, b: &Side) -> Option<Rel
     // The first body lies to the left of its edge, so the tangent (−n_y, n_x) points against the edge. The end of the
     // segment is therefore listed first.
     let ends = [segment.middle(segment.end), segment.middle(segment.start)];
-    let interface = Interface {
-        bodies,
-        kind: ContactKind::Edge,
-        ends,
-        normal: normal_across(ends),
-        friction: scene.friction_between(bodies[0], bodies[1]),
-    };
+    let normal = normal_across(ends);
+    let friction = scene.friction_at(bodies, normal);
+    let interface = Interface { bodies, kind: ContactKind::Edge, ends, normal, friction };
     Some(if is_short { Relation::TooShort(interface) } else { Relation::Touching(interface, distance) })
 }
 

@@ -106,12 +106,8 @@ fn joined(
 /// rotated anticlockwise by 90°.
 fn interface(scene: &Scene, lattice: &Lattice, pair: [BodyId; 2], begin: Node, end: Node) -> Interface {
     let (from, to) = (lattice.node(begin), lattice.node(end));
-    Interface {
-        bodies: pair,
-        kind: ContactKind::Edge,
-        // The tangent (−n_y, n_x) of this normal points from `end` to `begin`.
-        ends: [to, from],
-        normal: quarter_turn((to - from).normalize()),
-        friction: scene.friction_between(pair[0], pair[1]),
-    }
+    // The tangent (−n_y, n_x) of this normal points from `end` to `begin`.
+    let normal = quarter_turn((to - from).normalize());
+    let friction = scene.friction_at(pair, normal);
+    Interface { bodies: pair, kind: ContactKind::Edge, ends: [to, from], normal, friction }
 }

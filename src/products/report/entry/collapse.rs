@@ -4,7 +4,7 @@ use super::joints::{name, off_hinge};
 use super::unit::Units;
 use super::{Grid, TableCell};
 use crate::mechanics::analysis::{Analysis, FALLS, FrameAnalysis, MarginKind, Motion, Verdict};
-use crate::products::figure::{Fall, Joint, Kind};
+use crate::products::figure::{At, Fall, Joint, Kind};
 use crate::products::wording::failure::unsupported_phrase;
 use crate::products::wording::margin::{OtherFriction, governing};
 use crate::products::wording::number::{counted, percent};
@@ -48,11 +48,11 @@ impl Collapse {
         (!mechanism.is_empty()).then_some(Collapse { mechanism, toward, margin, friction })
     }
 
-    /// Returns the kind of the figure that shows the collapse, with the parameter that it varies.
-    pub fn figure(&self, found: &FrameAnalysis) -> Option<(Kind, Option<MarginKind>)> {
+    /// Returns the kind of the figure that shows the collapse, with the margin beyond which it happens.
+    pub fn figure(&self, found: &FrameAnalysis) -> Option<(Kind, Option<At>)> {
         match found.verdict {
             Verdict::Unstable => Some((Kind::Mechanism, None)),
-            _ => self.toward.map(|toward| (Kind::Margin, Some(toward))),
+            _ => self.toward.map(|toward| (Kind::Mechanism, Some(At::Margin(toward)))),
         }
     }
 

@@ -229,6 +229,9 @@ pub(super) fn facts(scene: &Scene, number: usize) -> Grid {
         let [a, b] = pair.map(|i| line(&scene.materials[i].name));
         add(&format!("μ of {a} on {b}"), digits(*friction));
     }
+    for set in scene.joint_sets.iter().filter(|set| set.friction.is_some()).take(MAX_ROWS) {
+        add(&format!("μ of the joints {}", line(&set.id)), set.friction.map(digits).unwrap_or_default());
+    }
     let kernel = match scene.kernel {
         0.0 => "0".to_owned(),
         kernel => format!("{}: forces stay in the middle {} of each joint", digits(kernel), tenths(1.0 - kernel)),

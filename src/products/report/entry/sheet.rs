@@ -6,11 +6,11 @@ use super::joints::{Ranking, robots};
 use super::unit::Units;
 use super::{Badge, Figure, Grid, MarginBar, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
 use crate::mechanics::analysis::{
-    Analysis, CaseResult, EffectName, FrameAnalysis, MarginKind, MovementOutcome, Verdict,
+    Analysis, CaseResult, EffectName, FrameAnalysis, MarginKind, MovementOutcome, SupportMovement, Verdict,
 };
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Drawing, Theme};
-use crate::products::figure::{self, Kind, Options};
+use crate::products::figure::{self, At, Kind, Options};
 use crate::products::wording::margin::headline;
 use crate::products::wording::number::letter;
 use crate::products::wording::question::{self, thrust_range};
@@ -113,6 +113,7 @@ pub(super) fn sheet(
     }
     parts.push(SheetPart::Table(robots(scene, found)));
     parts.extend(movements(scene, found));
+    parts.extend(titled("Blocks that may leave", removable(scene, found), None));
     parts.push(SheetPart::Heading("Balance of forces".to_owned()));
     parts.push(SheetPart::Table(balance::whole(analysis, number)));
     parts.push(SheetPart::Note(balance::check_words(found)));
@@ -211,12 +212,13 @@ fn figures(
     };
     let mut kinds = vec![(Kind::Forces, None, forces)];
     let shown = collapse.and_then(|collapse| collapse.figure(found));
-    match shown.or_else(|| other_way(analysis, number).map(|toward| (Kind::Margin, Some(toward)))) {
-        Some((Kind::Mechanism, _)) => kinds.insert(0, (Kind::Mechanism, None, "How it begins to fall.")),
-        Some((kind, toward)) => kinds.push((
+    let other = || other_way(analysis, number).map(|toward| (Kind::Mechanism, Some(At::Margin(toward))));
+    match shown.or_else(other) {
+        Some((kind, None)) => kinds.insert(0, (kind, None, "How it begins to fall.")),
+        Some((kind, at)) => kinds.push((
             kind,
-            toward,
-            match toward {
+            at,
+            match at.and_then(At::margin) {
                 Some(MarginKind::Tilt) => "How it would fall if gravity turned further than its margin.",
                 Some(MarginKind::HorizontalLoad) => "How it would fall under a larger push to the side.",
                 _ => "How it would fall under more than its margin of loads.",
@@ -225,19 +227,17 @@ fn figures(
         None => {}
     }
     if found.movements.iter().any(|moved| matches!(moved.outcome, MovementOutcome::Follows(_))) {
-        kinds.push((Kind::Movement, None, "How the structure cracks as its support moves, enlarged."));
+        kinds.push((Kind::Mechanism, Some(At::Movement), "How the structure cracks as its support moves, enlarged."));
     }
     if found.vehicle.is_some() {
         let caption = "The load factor for each position of the vehicle, and the governing position.";
-        kinds.push((Kind::Influence, None, caption));
+        kinds.push((Kind::Mechanism, Some(At::Vehicle), caption));
     }
     let wide = is_wide(scene, number);
     let mut figures = Vec::new();
-    for (kind, toward, caption) in kinds {
+    for (kind, at, caption) in kinds {
         let change = |options: &mut Options| {
-            if let Some(toward) = toward {
-                options.toward = toward;
-            }
+            options.at = at;
             if wide {
                 (options.width, options.height) = (Some(WIDE), Some(WIDE_HEIGHT));
             }
@@ -333,19 +333,35 @@ fn cases(given: &Scene, scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
 /// Returns the table of the movements of supports, if there are any.
 fn movements(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
     let mut grid = Grid::new("", &["if", "force on the support", "joints that open most"]);
-    for moved in &frame_analysis.movements {
+    let cases = frame_analysis.cases.iter();
+    let of_cases =
+        cases.flat_map(|cases| cases.each.iter().map(|case| (format!("case {}: ", case.id), &case.movements)));
+    let mut each: Vec<(String, &Vec<SupportMovement>)> = of_cases.collect();
+    if each.is_empty() {
+        each.push((String::new(), &frame_analysis.movements));
+    }
+    for (case, moved) in each.iter().flat_map(|(case, all)| all.iter().map(move |moved| (case, moved))) {
         let [force, joints] = match &moved.outcome {
             MovementOutcome::Follows(cracked) => {
                 [question::movement_force(scene, cracked), question::cracks(scene, frame_analysis, cracked)]
             }
             other => [String::new(), question::without_state(other).to_owned()],
         };
-        grid.add("", [question::movement(scene, moved), force, joints].map(|words| line(&words)));
+        grid.add("", [format!("{case}{}", question::movement(scene, moved)), force, joints].map(|words| line(&words)));
     }
     let note = "Of all forces that balance the structure, those whose force on the support does least work on the \
                 movement (H to the right, V upwards). Small displacements, per millimetre of the movement; a joint that \
                 slides also opens, by μ times the slip.";
     titled("Movements of supports", grid, Some(note.to_owned()))
+}
+
+/// Makes the table of the blocks that may leave, if they were asked for.
+fn removable(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
+    let mut grid = Grid::new("", &["block", "may leave", "#least force of a robot that holds it"]);
+    for cells in question::removable_rows(scene, frame_analysis.removable.as_deref().unwrap_or_default()) {
+        grid.add("", cells.map(|words| line(&words)));
+    }
+    grid
 }
 
 fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {

@@ -228,6 +228,12 @@ fn causes(scene: &Scene) -> Vec<Fact> {
         names.sort_unstable();
         fact("friction", names.to_vec(), json!({ "mu": friction }))
     }));
+    facts.extend(
+        scene
+            .joint_sets
+            .iter()
+            .map(|set| fact("joint set", vec![&set.id], json!({ "mu": set.friction, "factored": set.is_factored }))),
+    );
     facts.extend(scene.contacts.iter().map(|contact| {
         let names = bodies(scene, contact.bodies);
         fact("contact", names, json!({ "mu": contact.friction }))

@@ -93,16 +93,19 @@ pub fn headline(scene: &Scene, number: usize, found: &FrameAnalysis) -> String {
 fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governing<'a> {
     let margins = stated(scene, found);
     let has_factor = margins.iter().any(|margin| margin.kind == MarginKind::FrictionFactor);
+    let has_sets = scene.factored_sets().next().is_some();
     let mut governing = Governing::default();
     for (place, margin) in margins.iter().enumerate() {
         let is_more = match margin.kind {
             MarginKind::Tilt => true,
             // One coefficient everywhere is another structure than one with several. Then the factor is stated.
-            MarginKind::Friction => !(margin.differs() && has_factor) && friction_share(margin, found) >= NEAR_FRICTION,
+            MarginKind::Friction => {
+                !((margin.differs() || has_sets) && has_factor) && friction_share(margin, found) >= NEAR_FRICTION
+            }
             MarginKind::FrictionFactor => least(margin) >= NEAR_FRICTION,
             _ => false,
         };
-        let Some((words, end)) = reserve(margin, found, load).filter(|_| place == 0 || is_more) else {
+        let Some((words, end)) = reserve(margin, scene, found, load).filter(|_| place == 0 || is_more) else {
             continue;
         };
         governing.kind.get_or_insert(margin.kind);
@@ -141,17 +144,24 @@ fn friction_share(margin: &StatedMargin<'_>, found: &FrameAnalysis) -> f64 {
     friction(found).map_or(0.0, |(present, _)| least(margin) / present)
 }
 
-/// States a factor on the friction, with the coefficient in brackets if all joints that are not smooth have the same.
-fn times_friction(factor: f64, found: &FrameAnalysis) -> String {
-    let rough = found.contacts.iter().map(|contact| contact.interface.friction).filter(|friction| *friction > 0.0);
+/// States a factor on the friction, with the coefficient in brackets if all joints that it multiplies have the same.
+fn times_friction(factor: f64, scene: &Scene, found: &FrameAnalysis) -> String {
+    let joints = found.contacts.iter().map(|contact| &contact.interface);
+    let factored = joints.filter(|joint| scene.has_factored_friction(joint.bodies, joint.normal));
+    let rough = factored.map(|joint| joint.friction).filter(|friction| *friction > 0.0);
     let (least, most) = range_of(rough);
     let coefficient = if least == most { format!(" ({})", three_up(factor * most)) } else { String::new() };
-    format!("{} × its friction{coefficient}", three_up(factor))
+    format!("{} × {}{coefficient}", three_up(factor), question::factored_friction(scene))
 }
 
 /// States a margin of a frame that stands, and the end of its interval to which the words belong. `None` if the
 /// parameter has no limit.
-fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> Option<(String, Option<&'a End>)> {
+fn reserve<'a>(
+    margin: &StatedMargin<'a>,
+    scene: &Scene,
+    found: &FrameAnalysis,
+    load: &str,
+) -> Option<(String, Option<&'a End>)> {
     let (low, high) = (margin.interval.low(), margin.interval.high());
     let value = |end: Option<&'a End>| Some((confirmed(end?)?, end));
     // The nearer end, and its side if the other end is farther away.
@@ -196,7 +206,7 @@ fn reserve<'a>(margin: &StatedMargin<'a>, found: &FrameAnalysis, load: &str) -> 
         }
         MarginKind::FrictionFactor => {
             let (needed, end) = value(low).filter(|(needed, _)| *needed > 0.0)?;
-            Some((format!("stands down to {}", times_friction(needed, found)), end))
+            Some((format!("stands down to {}", times_friction(needed, scene, found)), end))
         }
         MarginKind::Kernel => {
             let (kernel, end) = value(high)?;
@@ -219,20 +229,21 @@ pub(super) fn lack(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<Stri
         return loads;
     }
     loads
-        .or_else(|| factor_lack(frame_analysis, margins.of(MarginKind::FrictionFactor)?))
+        .or_else(|| factor_lack(scene, frame_analysis, margins.of(MarginKind::FrictionFactor)?))
         .or_else(|| friction_lack(frame_analysis, margins.of(MarginKind::Friction)?))
 }
 
 /// Describes the factor on the friction with which a frame of different coefficients would stand, or states that no factor
 /// would hold it. Returns `None` if all coefficients are equal, or if the factor is not known.
-fn factor_lack(frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<String> {
-    friction(frame_analysis).filter(|(least, most)| least < most)?;
+fn factor_lack(scene: &Scene, frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<String> {
+    let has_sets = scene.factored_sets().next().is_some();
+    friction(frame_analysis).filter(|(least, most)| least < most || has_sets)?;
     match interval {
-        Interval::Empty(_) => Some("no multiple of its friction would hold it".to_owned()),
+        Interval::Empty(_) => Some(format!("no multiple of {} would hold it", question::factored_friction(scene))),
         Interval::Undecided => None,
         Interval::Between { low, .. } => {
             let needed = confirmed(low).filter(|needed| *needed > 1.0)?;
-            Some(format!("would need {}", times_friction(needed, frame_analysis)))
+            Some(format!("would need {}", times_friction(needed, scene, frame_analysis)))
         }
     }
 }

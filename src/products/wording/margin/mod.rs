@@ -73,6 +73,8 @@ pub struct StatedMargin<'a> {
     unit: Option<Unit>,
     /// The name of the parameter in words.
     pub name: String,
+    /// What the parameter multiplies, if it is a factor.
+    multiplied: String,
     /// The values at which the frame stands.
     pub interval: &'a Interval,
     /// The least and the largest current value. They differ if interfaces have different friction, and are infinite
@@ -200,9 +202,9 @@ impl StatedMargin<'_> {
             Interval::Between { low, high } => (low, high),
             Interval::Empty(excluded) => {
                 let none = match self.kind {
-                    MarginKind::LoadFactor => "stands under no multiple of its loads",
-                    MarginKind::FrictionFactor => "stands with no multiple of its friction",
-                    _ => "stands at no value",
+                    MarginKind::LoadFactor => "stands under no multiple of its loads".to_owned(),
+                    MarginKind::FrictionFactor => format!("stands with no multiple of {}", self.multiplied),
+                    _ => "stands at no value".to_owned(),
                 };
                 return match conflict(excluded) {
                     Some([low, high]) => {
@@ -213,7 +215,7 @@ impl StatedMargin<'_> {
                             format!("{none}: {FALLS} below {low}, and {FALLS} above {high}")
                         }
                     }
-                    None => none.to_owned(),
+                    None => none,
                 };
             }
             Interval::Undecided => return format!("no verdict shows at which values it {STANDS}"),
@@ -252,8 +254,7 @@ impl StatedMargin<'_> {
                 (Some(low), Some(high)) if is_one(low, high) => self.value(low),
                 (Some(low), Some(high)) => format!("{} to {}", least_words(low), value(high)),
             };
-            let what = if self.kind == MarginKind::LoadFactor { "loads" } else { "friction" };
-            return format!("with its {what} times {factor}");
+            return format!("with {} times {factor}", self.multiplied);
         }
         match (least, most) {
             (None, None) => "at any value".to_owned(),
@@ -324,12 +325,20 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
         };
         let governed = governed(frame_analysis, interval, *conditions);
         let name = kind.about().name.to_owned();
-        Some(StatedMargin { kind, unit: None, name, interval, present, position, conditions: *conditions, governed })
+        let multiplied = match kind {
+            MarginKind::FrictionFactor => question::factored_friction(scene),
+            _ => "its loads".to_owned(),
+        };
+        let conditions = *conditions;
+        Some(StatedMargin { kind, unit: None, name, multiplied, interval, present, position, conditions, governed })
     };
     // With one coefficient, the factor on the friction says the same as the coefficient.
     let is_same = |kind: MarginKind| {
         let is_alike = friction(frame_analysis).is_none_or(|(least, most)| least == most);
-        kind == MarginKind::FrictionFactor && is_alike && margins.of(MarginKind::Friction).is_some()
+        kind == MarginKind::FrictionFactor
+            && is_alike
+            && scene.factored_sets().next().is_none()
+            && margins.of(MarginKind::Friction).is_some()
     };
     let kinds = MarginKind::of_frame().filter(|kind| !is_same(*kind));
     let mut list: Vec<StatedMargin<'_>> = kinds.filter_map(margin).collect();
@@ -369,6 +378,7 @@ fn robot_limits<'a>(scene: &Scene, margins: &'a Margins, position: Position) -> 
             kind: MarginKind::Robots,
             unit: Some(unit),
             name: format!("limit of the {name} of robot {id}"),
+            multiplied: String::new(),
             interval,
             present: Some((limit, limit)),
             position,

@@ -25,12 +25,14 @@ pub(super) enum Shape {
 pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shape> {
     let shape = match entity.kind {
         "LINE" => Shape::Curve(open(point(entity, 10), vec![Segment::Line(point(entity, 11))])),
-        "ARC" => Shape::Curve(arc(entity)),
+        "ARC" => Shape::Curve(arc(entity, 1.0)),
         "CIRCLE" => {
             let radius = entity.number(40).unwrap_or(f64::NAN);
             Shape::Curve(Subpath::ellipse(point(entity, 10), radius, radius))
         }
-        "ELLIPSE" => Shape::Curve(ellipse(entity)),
+        "ELLIPSE" => {
+            Shape::Curve(ellipse(entity, turn(entity).unwrap_or(1.0), [41, 42].map(|code| entity.number(code))))
+        }
         "LWPOLYLINE" => polyline(&corners(entity), entity.has_flag(70, 1)),
         "POLYLINE" if entity.has_flag(70, 16 | 64) => Shape::Unreadable("it is a mesh"),
         "POLYLINE" => {
@@ -60,37 +62,22 @@ pub(super) fn curve(entity: &Record<'_>, vertices: &[Record<'_>]) -> Option<Shap
         "MLINE" => Shape::Unreadable("a multiline (MLINE) has no single outline"),
         _ => return None,
     };
-    Some(match (extrusion(entity), shape) {
-        (Extrusion::Up, shape) => shape,
-        (Extrusion::Down, Shape::Curve(curve)) if !matches!(entity.kind, "LINE" | "ELLIPSE" | "SPLINE") => {
+    Some(match (turn(entity), shape) {
+        (None, _) => Shape::Unreadable(NOT_PLANE),
+        (Some(-1.0), Shape::Curve(curve)) if !matches!(entity.kind, "LINE" | "ELLIPSE" | "SPLINE") => {
             // If the normal of a curve points down, its x axis points to the left, so the curve is mirrored. LINE,
             // ELLIPSE and SPLINE are not mirrored, because they always use the axes of the drawing.
             Shape::Curve(curve.mapped(&crate::sources::import::subpath::Affine::scale(-1.0, 1.0)))
         }
-        (Extrusion::Down, shape) => shape,
-        (Extrusion::Other, _) => Shape::Unreadable(NOT_PLANE),
+        (_, shape) => shape,
     })
 }
 
-/// The direction of an entity's normal relative to the normal of the drawing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Extrusion {
-    Up,
-    Down,
-    Other,
-}
-
-/// Returns the direction of an entity's normal, which has the group codes 210, 220 and 230. The direction is `Other` if
-/// the magnitude of the x or y component exceeds 1e-6, or if the z component is 0.
-pub(super) fn extrusion(entity: &Record<'_>) -> Extrusion {
+/// Returns 1 if the normal of an entity, which has the group codes 210, 220 and 230, points up, and −1 if it points down.
+/// `None` if the magnitude of its x or y component exceeds 1e-6, or if its z component is 0.
+pub(super) fn turn(entity: &Record<'_>) -> Option<f64> {
     let [x, y, z] = [(210, 0.0), (220, 0.0), (230, 1.0)].map(|(code, default)| entity.number(code).unwrap_or(default));
-    if !(x.abs() <= 1e-6 && y.abs() <= 1e-6 && z != 0.0) {
-        Extrusion::Other
-    } else if z > 0.0 {
-        Extrusion::Up
-    } else {
-        Extrusion::Down
-    }
+    (x.abs() <= 1e-6 && y.abs() <= 1e-6 && z != 0.0).then_some(if z > 0.0 { 1.0 } else { -1.0 })
 }
 
 /// Reads a point: x has the group code `code`, and y has `code` + 10. A missing coordinate becomes NaN.
@@ -111,7 +98,7 @@ fn corner(vertex: &Record<'_>) -> Corner {
 }
 
 /// Reads the corners of an LWPOLYLINE. Group code 10 (x) begins a corner; codes 20 (y) and 42 (bulge) belong to it.
-fn corners(entity: &Record<'_>) -> Vec<Corner> {
+pub(super) fn corners(entity: &Record<'_>) -> Vec<Corner> {
     let mut corners: Vec<Corner> = Vec::new();
     for (code, value) in &entity.groups {
         match (code, corners.last_mut()) {
@@ -138,29 +125,24 @@ pub(super) fn polyline(corners: &[Corner], is_closed: bool) -> Shape {
 }
 
 /// Reads an ARC: centre, radius, and the angles of start and end in degrees, measured anticlockwise.
-fn arc(entity: &Record<'_>) -> Subpath {
+/// `turn` is −1 if they are measured clockwise.
+pub(super) fn arc(entity: &Record<'_>, turn: f64) -> Subpath {
     let radius = entity.number(40).unwrap_or(f64::NAN);
-    let angle = |code| entity.number(code).unwrap_or(0.0).to_radians();
-    part_of_ellipse(point(entity, 10), Vector::new(radius, 0.0), Vector::new(0.0, radius), angle(50), angle(51))
+    let angles = [50, 51].map(|code| entity.number(code).unwrap_or(0.0).to_radians());
+    part_of_ellipse(point(entity, 10), Vector::new(radius, 0.0), Vector::new(0.0, turn * radius), angles)
 }
 
 /// Reads an ELLIPSE: centre, the end of the long axis relative to the centre, the ratio of the axes, and the angles of
-/// start and end in radians.
-fn ellipse(entity: &Record<'_>) -> Subpath {
-    let centre = point(entity, 10);
+/// start and end in radians, which are measured clockwise if `turn` is −1.
+pub(super) fn ellipse(entity: &Record<'_>, turn: f64, [from, to]: [Option<f64>; 2]) -> Subpath {
     let major = point(entity, 11).coords;
-    let turn = match extrusion(entity) {
-        Extrusion::Down => -1.0,
-        _ => 1.0,
-    };
     let minor = Vector::new(-major.y, major.x) * (turn * entity.number(40).unwrap_or(1.0));
-    let (from, to) = (entity.number(41).unwrap_or(0.0), entity.number(42).unwrap_or(TAU));
-    part_of_ellipse(centre, major, minor, from, to)
+    part_of_ellipse(point(entity, 10), major, minor, [from.unwrap_or(0.0), to.unwrap_or(TAU)])
 }
 
 /// Returns the curve `centre + u cos θ + v sin θ` for θ from `from` up to `to`, in radians. The curve is the whole
 /// ellipse if the two angles are equal or differ by full turns.
-pub(super) fn part_of_ellipse(centre: Point, u: Vector, v: Vector, from: f64, to: f64) -> Subpath {
+fn part_of_ellipse(centre: Point, u: Vector, v: Vector, [from, to]: [f64; 2]) -> Subpath {
     let sweep = match (to - from).rem_euclid(TAU) {
         // Equal angles mean a full turn. The tolerance allows for angles with six decimals.
         turn if turn < 1e-6 || TAU - turn < 1e-6 => TAU,

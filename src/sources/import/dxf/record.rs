@@ -28,7 +28,6 @@ pub(super) struct Record<'t> {
 /// Returns a message if the file is binary, is not complete, does not begin with a record, has too many records, or has
 /// a line without a number where a group code must be.
 pub(super) fn records(text: &str) -> Result<Vec<Record<'_>>, String> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if text.starts_with("AutoCAD Binary DXF") {
         return Err("it is a binary DXF file; save it as DXF in text form (ASCII)".into());
     }
@@ -69,6 +68,11 @@ pub(super) fn records(text: &str) -> Result<Vec<Record<'_>>, String> {
 }
 
 impl<'t> Record<'t> {
+    /// Returns a record with some of the groups.
+    pub(super) fn part(&self, groups: &[(i32, &'t str)]) -> Record<'t> {
+        Record { groups: groups.to_vec(), ..*self }
+    }
+
     /// Returns the value of the first group with this code; `None` if there is none.
     pub(super) fn text(&self, code: i32) -> Option<&'t str> {
         let group = self.groups.iter().find(|(c, _)| *c == code)?;

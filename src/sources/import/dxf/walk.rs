@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::entity::{Extrusion, Shape, count, curve, extrusion, point};
+use super::entity::{Shape, count, curve, point, turn};
 use super::hatch;
 use super::record::{Block, Document, Record};
 use crate::sources::import::draft::{Draft, FillRule, Part, PartGeometry, Role, Values};
@@ -17,25 +17,8 @@ const MAX_LINES: usize = 10 * MAX_BODIES;
 /// The largest nesting depth of blocks.
 const MAX_DEPTH: usize = 16;
 /// Kinds of entities without outlines that drawings often contain. They are counted, and not reported one by one.
-const ANNOTATIONS: [&str; 17] = [
-    "ACAD_PROXY_ENTITY",
-    "ATTDEF",
-    "ATTRIB",
-    "DIMENSION",
-    "IMAGE",
-    "LEADER",
-    "MTEXT",
-    "MULTILEADER",
-    "OLE2FRAME",
-    "RAY",
-    "SEQEND",
-    "TEXT",
-    "TOLERANCE",
-    "VIEWPORT",
-    "WIPEOUT",
-    "XLINE",
-    "ACAD_TABLE",
-];
+const ANNOTATIONS: &str = "ACAD_PROXY_ENTITY ATTDEF ATTRIB DIMENSION IMAGE LEADER MTEXT MULTILEADER OLE2FRAME RAY SEQEND \
+    TEXT TOLERANCE VIEWPORT WIPEOUT XLINE ACAD_TABLE";
 
 /// The state of the walk.
 pub(super) struct DxfWalk<'d> {
@@ -141,7 +124,7 @@ impl<'d> DxfWalk<'d> {
             Some(Shape::Unreadable(why)) => {
                 self.draft.lose("entity", &element, why, "draw the block as a closed polyline");
             }
-            None if ANNOTATIONS.contains(&entity.kind) => {
+            None if ANNOTATIONS.split(' ').any(|kind| kind == entity.kind) => {
                 let is_text = matches!(entity.kind, "TEXT" | "MTEXT" | "ATTRIB" | "ATTDEF");
                 self.annotation(if is_text { "text" } else { "annotation" }, element);
             }
@@ -257,8 +240,5 @@ fn transform(insert: &Record<'_>, block: &Block<'_>, [column, row]: [usize; 2]) 
         .after(&Affine::translation(offset[0], offset[1]))
         .after(&Affine::scale(number(41, 1.0), number(42, 1.0)))
         .after(&Affine::translation(-base.x, -base.y));
-    match extrusion(insert) {
-        Extrusion::Down => Affine::scale(-1.0, 1.0).after(&map),
-        _ => map,
-    }
+    Affine::scale(turn(insert).unwrap_or(1.0), 1.0).after(&map)
 }

@@ -79,12 +79,8 @@ fn polyline(node: Node<'_, '_>, closed: bool) -> Result<Vec<Subpath>, String> {
 fn rectangle(at: Point, size: Vector, radii: Vector) -> Subpath {
     let corner = |x: f64, y: f64| at + Vector::new(x * size.x, y * size.y);
     if !(radii.x > 0.0 && radii.y > 0.0) {
-        let corners = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
-        return Subpath {
-            start: corners[0],
-            segments: corners[1..].iter().map(|p| Segment::Line(*p)).collect(),
-            closed: true,
-        };
+        let segments = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| Segment::Line(corner(x, y))).to_vec();
+        return Subpath { start: at, segments, closed: true };
     }
     let (u, v) = (Vector::new(radii.x, 0.0), Vector::new(0.0, radii.y));
     let mut segments = Vec::new();

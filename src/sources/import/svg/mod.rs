@@ -63,22 +63,11 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
     }
     let sheet = StyleSheet::parse(&css);
     let (rules, elements) = (sheet.rules.len(), document.descendants().filter(Node::is_element).count());
-    let too_slow =
-        format!("its {rules} style rules and {elements} elements need too many comparisons; simplify its styles");
-    let of_element = comparisons(&sheet, &document);
-    let reads_all = css.contains('[');
-    let weights = document
-        .descendants()
-        .filter(Node::is_element)
-        .map(|node| weight(node, reads_all))
-        .fold(0, usize::saturating_add);
-    if of_element.saturating_mul(weights) > MAX_RULE_MATCHES {
-        return Err(too_slow);
-    }
     let mut walk = SvgWalk {
+        comparisons: comparisons(&sheet, &document),
+        reads_all: css.contains('['),
+        moves: css.contains("transform"),
         sheet,
-        comparisons: of_element,
-        reads_all,
         naming,
         styled: 0,
         ids: ids(&document),
@@ -101,19 +90,18 @@ pub(super) fn read(text: &str, scale: Scale, frame: Option<usize>, naming: &Nami
     } else {
         walk.drawing(root, scale)?;
     }
-    // Copies are compared too.
-    if walk.styled > MAX_RULE_MATCHES {
-        return Err(too_slow);
-    }
-    if walk.clip_corners > MAX_CLIP_CORNERS {
-        return Err(format!(
+    let refusal = if walk.styled > MAX_RULE_MATCHES {
+        format!("its {rules} style rules and {elements} elements need too many comparisons; simplify its styles")
+    } else if walk.clip_corners > MAX_CLIP_CORNERS {
+        format!(
             "its clip paths have more than {MAX_CLIP_CORNERS} corners in all clipped elements; cut the outlines themselves"
-        ));
-    }
-    if walk.more > 0 {
-        return Err(too_many(walk.draft.parts.len() + walk.more).message);
-    }
-    Ok(walk.draft)
+        )
+    } else if walk.more > 0 {
+        too_many(walk.draft.parts.len() + walk.more).message
+    } else {
+        return Ok(walk.draft);
+    };
+    Err(refusal)
 }
 
 /// Returns the largest number of comparisons that the style rules need for one element. A selector with k spaces, such as

@@ -6,7 +6,7 @@ use svgtypes::{TransformListParser, TransformListToken};
 use super::context::Context;
 use super::style::Fill;
 use super::walk::{MAX_CLIP_CORNERS, SvgWalk};
-use super::{element, name};
+use super::{element, name, style};
 use crate::sources::import::draft::{Part, PartGeometry};
 use crate::sources::import::limit::MAX_BODIES;
 use crate::sources::import::subpath::Affine;
@@ -56,11 +56,38 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         None
     }
 
-    /// Returns the `transform` attribute of an element as an affine map. If it has an error, the error is reported and
-    /// only the part before it is used.
+    /// Returns the transform of an element as an affine map, from an attribute or a style. If it has an error, the error
+    /// is reported and only the part before it is used.
     pub(super) fn transform(&mut self, node: Node<'a, 'd>, around: &Context) -> Affine {
-        let mut map = Affine::IDENTITY;
-        for token in TransformListParser::from(node.attribute("transform").unwrap_or("")) {
+        let is_styled = self.moves || node.attribute("style").is_some_and(|style| style.contains("transform"));
+        let value = |name: &str| match is_styled {
+            true => style::declared(node, &self.sheet, name),
+            false => node.attribute(name),
+        };
+        let (transform, origin) = (value("transform").unwrap_or("").trim(), value("transform-origin"));
+        let fills_box = value("transform-box").is_some_and(|of| !matches!(of.trim(), "view-box" | "border-box"));
+        if matches!(transform, "" | "none") {
+            return Affine::IDENTITY;
+        }
+        // Lengths and angles of styles have units.
+        let transform = ["px", "deg"].iter().fold(transform.to_owned(), |text, unit| text.replace(unit, ""));
+        let place = |text: &str| {
+            let numbers = text.split_whitespace().map(|number| number.trim_end_matches("px").parse::<f64>());
+            match numbers.collect::<Result<Vec<f64>, _>>().ok()?[..] {
+                [x, y, ..] => Some([x, y]),
+                _ => None,
+            }
+        };
+        let [x, y] = match origin.map(place) {
+            Some(place) if place.is_none() || fills_box => {
+                let why = "its transform has an origin that is not two numbers; the origin 0 0 is used";
+                self.remark(node, around, why, "apply the transform to the shape, for example by ungrouping it");
+                [0.0; 2]
+            }
+            place => place.flatten().unwrap_or_default(),
+        };
+        let mut map = Affine::translation(x, y);
+        for token in TransformListParser::from(transform.as_str()) {
             let Ok(token) = token else {
                 let why = "its transform cannot be read completely; the part before the error is used";
                 self.remark(node, around, why, "");
@@ -75,7 +102,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                 TransformListToken::SkewY { angle } => Affine([1.0, libm::tan(angle.to_radians()), 0.0, 1.0, 0.0, 0.0]),
             });
         }
-        map
+        map.after(&Affine::translation(-x, -y))
     }
 }
 

@@ -104,11 +104,15 @@ impl Style {
 }
 
 /// Returns the id of the clip path of an element; `None` if its clip path is not a reference.
-pub(super) fn clip_reference(node: Node<'_, '_>, sheet: &StyleSheet<'_>) -> Option<String> {
-    let own = declarations(node, sheet);
-    let value = own.iter().rev().find(|d| d.0 == "clip-path")?.1.trim();
+pub(super) fn clip_reference<'v>(node: Node<'v, '_>, sheet: &'v StyleSheet<'_>) -> Option<&'v str> {
+    let value = declared(node, sheet, "clip-path")?.trim();
     let id = value.strip_prefix("url(")?.strip_suffix(')')?.trim_matches(['"', '\'', ' ']);
-    id.strip_prefix('#').map(str::to_owned)
+    id.strip_prefix('#')
+}
+
+/// Returns the value of a property of an element.
+pub(super) fn declared<'v>(node: Node<'v, '_>, sheet: &'v StyleSheet<'_>, name: &str) -> Option<&'v str> {
+    declarations(node, sheet).iter().rev().find(|d| d.0 == name).map(|d| d.1)
 }
 
 fn bytes(colour: Color) -> [u8; 3] {

@@ -38,6 +38,8 @@ pub(super) struct SvgWalk<'a, 'd> {
     pub(super) draft: Draft,
     /// The largest number of comparisons of one element with the style rules.
     pub(super) comparisons: usize,
+    /// Whether style rules have transforms.
+    pub(super) moves: bool,
     /// Whether selectors read all attributes.
     pub(super) reads_all: bool,
     /// The number of visited elements.
@@ -122,7 +124,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     /// Returns the outline of the clip path of an element, in metres. `None` if the clip path does not consist of one
     /// closed outline in the coordinates of the element.
     fn clip(&mut self, node: Node<'a, 'd>, inner: &Context) -> Option<Subpath> {
-        let clip = *self.ids.get(style::clip_reference(node, &self.sheet)?.as_str())?;
+        let clip = *self.ids.get(style::clip_reference(node, &self.sheet)?)?;
         let in_box = clip.attribute("clipPathUnits") == Some("objectBoundingBox");
         if !is(clip, "clipPath") || in_box || clip.has_attribute("clip-path") {
             return None;

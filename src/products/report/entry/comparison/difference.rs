@@ -238,6 +238,10 @@ fn given(scene: &Scene, number: usize, units: UnitsEntry) -> FrameInputs {
         let [a, b] = pair.map(|i| line(&scene.materials[i].name));
         given.push((format!("friction of {a} on {b}"), digits(*friction), None));
     }
+    for set in &scene.joint_sets {
+        let friction = set.friction.map_or_else(|| "as its bodies".to_owned(), digits);
+        given.push((format!("friction of the joints {}", line(&set.id)), friction, None));
+    }
     for block in &frame.placed {
         let loads = scene.loads.iter().filter(|load| load.block == *block);
         let words: Vec<String> = loads

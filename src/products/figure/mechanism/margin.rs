@@ -1,22 +1,13 @@
-//! Draws a collapse margin: the structure in its present position, and strong outlines that show how it would fall just
-//! beyond the margin.
-//!
-//! The options choose the [parameter](MarginKind). The structure stands for an interval of values of this parameter. The
-//! outlines show how it would fall beyond the end that is nearer to the present state; for the load factor, beyond the
-//! upper end. Hinges and slips are those of this collapse. If gravity is turned or a horizontal load is added, arrows
-//! show the values at both ends. Loads are drawn with their present magnitudes.
+//! The margin beyond which a structure falls: its interval in words, and for a tilt or a horizontal load arrows that show
+//! the values at both ends.
 
-use super::canvas::Canvas;
-use super::design::{Key, Layer, Mark, around, direction, moved_edge, unit};
-use super::displacement::Course;
-use super::fall::Fall;
-use super::gives;
-use super::option::Options;
-use super::panel::{About, Figure};
-use super::placing::Label;
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
-use crate::mechanics::analysis::{Analysis, End, MarginKind, Verdict};
+use crate::mechanics::analysis::{End, FrameAnalysis, MarginKind};
+use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, Path, text};
+use crate::products::figure::canvas::Canvas;
+use crate::products::figure::design::{Key, Layer, Mark, around, direction};
+use crate::products::figure::placing::Label;
 use crate::products::wording::margin::{end, stated};
 
 /// Length of the longest of the arrows that show gravity or a horizontal load, mm.
@@ -24,67 +15,22 @@ const GRAVITY_LENGTH: f64 = 10.0;
 /// Distance between these arrows and the structure, mm.
 const GRAVITY_DISTANCE: f64 = 3.0;
 
-/// The figure of a margin.
-pub(crate) struct CollapseMargin;
-
-impl Figure for CollapseMargin {
-    fn about(&self) -> About {
-        About {
-            needs_margins: true,
-            ..About::new(
-                "margin",
-                "The structure, and how it falls just beyond its margin; --margin selects the margin",
-                "How far a dry-laid structure is from falling",
-            )
-        }
+/// States at which values of the parameter a frame stands.
+pub(super) fn words(scene: &Scene, found: &FrameAnalysis, toward: MarginKind) -> String {
+    let margins = stated(scene, found);
+    match (margins.iter().find(|margin| margin.kind == toward), toward) {
+        (Some(margin), _) => format!("{}: {}", margin.name, margin.stands()),
+        (None, _) if found.margins.is_none() => "its margins were not computed".to_owned(),
+        (None, MarginKind::LoadFactor) => "it has no loads that could grow".to_owned(),
+        (None, _) => "its margin was not computed".to_owned(),
     }
-
-    fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-        let found = &analysis.frames[frame];
-        let margins = stated(&analysis.scene, found);
-        let margin = margins.iter().find(|margin| margin.kind == options.toward);
-        vec![match (margin, options.toward) {
-            (Some(margin), _) => format!("{}: {}", margin.name, margin.stands()),
-            (None, _) if found.margins.is_none() => "its margins were not computed".to_owned(),
-            (None, MarginKind::LoadFactor) => "it has no loads that could grow".to_owned(),
-            (None, _) => "its margin was not computed".to_owned(),
-        }]
-    }
-
-    fn above(&self, canvas: &mut Canvas<'_>) {
-        let (analysis, frame, toward) = (canvas.analysis, canvas.number, canvas.options.toward);
-        let stands = canvas.found().verdict == Verdict::Stable;
-        let edge = canvas.own().edge.get_or_init(|| analysis.edge(frame, toward).filter(|_| stands));
-        if let Some((edge, motions)) = edge {
-            let fall = Fall::with(analysis, frame, motions);
-            ghosts(canvas, &fall);
-            gives::draw_fall(canvas, &fall, &fall.joints);
-            gravity(canvas, *edge);
-        }
-    }
-}
-
-/// Draws the outlines of the blocks in their displaced positions.
-pub(super) fn ghosts(canvas: &mut Canvas<'_>, fall: &Fall<'_>) {
-    let unit = unit(fall.scene, canvas.options.zoom);
-    let course = &canvas.own().courses.get_or_init(|| vec![Course::new(fall, unit)])[0];
-    let edge = canvas.pen(moved_edge(canvas.theme()), 0.24);
-    let mut outline = Outline::default();
-    for (block, displacement) in fall.scene.blocks.iter().zip(course.at(1.0)) {
-        if let Some(displacement) = displacement {
-            outline.extend(canvas.camera.polygon(&displacement.polygon(&block.body.polygon)));
-        }
-    }
-    let key = Key::block(10, "how it begins to fall", canvas.look, |small| vec![Path::stroked(small, edge.clone())]);
-    let mark = Mark::new(Layer::Force, "ghosts", vec![Path::stroked(outline, edge)]).keyed(&key);
-    canvas.put(mark.titled("How it would begin to fall").avoided(0.1));
 }
 
 /// Draws the arrows to the left of the structure: a dashed line in the present direction of gravity, and the turned
 /// gravity or the additional horizontal load at which the structure begins to fall. A pale arrow shows the value at the
 /// other end of the interval, if it is known. `edge` is the value of the parameter at the margin.
-fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
-    let (theme, toward) = (canvas.theme(), canvas.options.toward);
+pub(super) fn arrows(canvas: &mut Canvas<'_>, toward: MarginKind, edge: f64) {
+    let theme = canvas.theme();
     let down = canvas.scene().down();
     // The vector of an arrow, as a multiple of gravity.
     let arrow = |value: f64| match toward {
@@ -100,7 +46,7 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
         _ => return,
     };
     // The nearer end of the interval is dark, the other one is pale.
-    let values = [Some((edge, theme.ink)), other_end(canvas, edge).map(|other| (other, theme.faint))];
+    let values = [Some((edge, theme.ink)), other_end(canvas, toward, edge).map(|other| (other, theme.faint))];
     let values: Vec<(f64, Colour)> = values.into_iter().flatten().collect();
     let vectors: Vec<Vector> = values.iter().map(|(value, _)| arrow(*value)).chain([down]).collect();
     let longest = vectors.iter().map(|v| v.norm()).fold(0.0, f64::max);
@@ -151,9 +97,9 @@ fn gravity(canvas: &mut Canvas<'_>, edge: f64) {
 
 /// Returns the end of the interval whose sign is opposite to that of `edge`, in the unit of the parameter. Returns
 /// `None` if there is no such end or its value is not known.
-fn other_end(canvas: &Canvas<'_>, edge: f64) -> Option<f64> {
+fn other_end(canvas: &Canvas<'_>, toward: MarginKind, edge: f64) -> Option<f64> {
     let margins = stated(canvas.scene(), canvas.found());
-    let margin = margins.iter().find(|margin| margin.kind == canvas.options.toward)?;
+    let margin = margins.iter().find(|margin| margin.kind == toward)?;
     let ends = [margin.interval.low(), margin.interval.high()].into_iter().flatten();
     ends.filter_map(End::value).find(|other| *other != edge && other * edge <= 0.0)
 }

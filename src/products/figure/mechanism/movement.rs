@@ -1,74 +1,58 @@
-//! Draws how a structure cracks as a support moves: the displaced blocks and the displaced support, their present
-//! positions as dashed outlines, and at each joint how far it opens or slides per unit of the movement.
-//!
-//! The picture is made like that of a mechanism, in which the support is one more block that moves. The words state the
-//! movement for which it is drawn.
+//! How a structure cracks as a support moves: the displaced blocks and the displaced support, and at each joint how far it
+//! opens or slides per unit of the movement. The support is one more block that moves.
 
 use std::sync::Arc;
 
-use super::canvas::Canvas;
-use super::design::{Layer, Mark, unit};
-use super::displacement::Course;
-use super::fall::Fall;
-use super::gives::{self, Gives, How};
-use super::mechanism::{displaced_blocks, ghosts, present_edge};
-use super::option::Options;
-use super::panel::{About, Figure};
-use super::placing::Label;
-use crate::mechanics::analysis::{Analysis, Crack, Cracked, Motion, MovementOutcome, SupportMovement, Verdict};
+use super::{displaced_blocks, present_edge};
+use crate::mechanics::analysis::{Analysis, Crack, Cracked, Motion, MovementOutcome, SupportMovement};
 use crate::mechanics::scene::{Block, BlockId, BodyId, Movement, Scene};
-use crate::pictures::drawing::{Outline, Path};
+use crate::pictures::drawing::{Outline, PagePoint, Path};
+use crate::products::figure::canvas::Canvas;
+use crate::products::figure::design::{Key, Layer, Mark, along, around, direction, moved_edge, unit};
+use crate::products::figure::displacement::Course;
+use crate::products::figure::fall::Fall;
+use crate::products::figure::gives::{self, Gives, How, Place};
+use crate::products::figure::option::{At, Options};
+use crate::products::figure::placing::Label;
 use crate::products::wording::failure::pair;
 use crate::products::wording::number::{quantity, round_below_in, three};
 use crate::products::wording::question::{movement, movement_force, per_unit, without_state};
-use crate::products::wording::verdict;
 
 /// The largest number of joints that state how far they open or slide.
 const MAX_AMOUNTS: usize = 12;
 
-/// The figure of a support that moves.
-pub(crate) struct MovedSupport;
-
-impl Figure for MovedSupport {
-    fn about(&self) -> About {
-        About::new(
-            "movement",
-            "How the structure cracks as a support moves; --movement selects one of several movements",
-            "How a dry-laid structure follows its support",
-        )
-    }
-
-    fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-        let (scene, found) = analysis.at(frame);
-        match (chosen(analysis, frame, options), found.verdict) {
-            (Some(moved), _) => {
-                let pushes = match &moved.outcome {
-                    MovementOutcome::Follows(cracked) => {
-                        format!("the structure pushes it with {}", movement_force(scene, cracked))
-                    }
-                    other => without_state(other).to_owned(),
-                };
-                vec![movement(scene, moved), pushes]
-            }
-            (None, Verdict::Stable) => vec!["the scene lists no movement of a support".into()],
-            (None, Verdict::Unstable) => vec!["it falls before a support moves".into()],
-            (None, Verdict::Undecided) => vec![verdict::reason(scene, found)],
+/// States the movement, and with what force the structure pushes the support; or why the structure does not follow.
+pub(super) fn words(analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
+    let scene = analysis.scene_of(frame);
+    let Some(moved) = chosen(analysis, frame, options) else {
+        return vec![format!("there is no movement {}", options.movement.unwrap_or(1))];
+    };
+    let pushes = match &moved.outcome {
+        MovementOutcome::Follows(cracked) => {
+            format!("the structure pushes it with {}", movement_force(scene, cracked))
         }
-    }
+        other => without_state(other).to_owned(),
+    };
+    vec![movement(scene, moved), pushes]
+}
 
-    fn displace(&self, canvas: &mut Canvas<'_>) {
-        if let Some((cracked, own)) = state(canvas) {
-            displace(canvas, cracked, own);
-        }
+/// Displaces the blocks and the support. Returns false if the frame does not follow a movement.
+pub(super) fn displace(canvas: &mut Canvas<'_>) -> bool {
+    let state = state(canvas);
+    if let Some((cracked, own)) = state {
+        displace_blocks(canvas, cracked, own);
     }
+    state.is_some()
+}
 
-    fn below(&self, canvas: &mut Canvas<'_>) {
-        if let Some((cracked, own)) = state(canvas) {
-            ghosts(canvas);
-            displaced(canvas, own);
-            cracks(canvas, cracked);
-        }
+/// Draws the displaced blocks and the joints that open or slide. Returns false if the frame does not follow a movement.
+pub(super) fn draw(canvas: &mut Canvas<'_>) -> bool {
+    let state = state(canvas);
+    if let Some((cracked, own)) = state {
+        displaced(canvas, own);
+        cracks(canvas, cracked);
     }
+    state.is_some()
 }
 
 /// Returns the movement that the options name, or the first one that the structure follows.
@@ -81,6 +65,7 @@ fn chosen<'a>(analysis: &'a Analysis, frame: usize, options: &Options) -> Option
 }
 
 fn state<'a>(canvas: &Canvas<'a>) -> Option<(&'a Cracked, &'a Movement)> {
+    canvas.options.at.filter(|at| *at == At::Movement)?;
     let moved = chosen(canvas.analysis, canvas.number, canvas.options)?;
     match &moved.outcome {
         MovementOutcome::Follows(cracked) => Some((cracked, canvas.scene().movements.get(moved.number)?)),
@@ -90,7 +75,7 @@ fn state<'a>(canvas: &Canvas<'a>) -> Option<(&'a Cracked, &'a Movement)> {
 
 /// Displaces the blocks and the support of the canvas. The paths are those of an analysis in which the support is the
 /// last block.
-fn displace(canvas: &mut Canvas<'_>, cracked: &Cracked, movement: &Movement) {
+fn displace_blocks(canvas: &mut Canvas<'_>, cracked: &Cracked, movement: &Movement) {
     let Some(mut alone) = canvas.analysis.alone(canvas.number) else { return };
     let mut scene = Scene::clone(&alone.scene);
     let (ground, support) = (BodyId::Ground(movement.ground), BlockId(scene.blocks.len()));
@@ -118,7 +103,7 @@ fn displace(canvas: &mut Canvas<'_>, cracked: &Cracked, movement: &Movement) {
     canvas.displaced = course.at(canvas.options.motion_progress * drawn / amplitude.max(f64::MIN_POSITIVE));
     canvas.moved_ground = canvas.displaced.pop().flatten().map(|way| (movement.ground, way));
     let moves = quantity(drawn, canvas.scene().units.length());
-    canvas.note(62, &format!("drawn for a movement of {moves}; amounts are mm per mm of it"));
+    canvas.note(62, &format!("drawn for a movement of {moves}; numbers: opening in mm for each mm of it"));
 }
 
 /// Draws the displaced blocks, and the present edge of the support.
@@ -130,7 +115,19 @@ fn displaced(canvas: &mut Canvas<'_>, movement: &Movement) {
     let contacts = canvas.found().contacts.iter().map(|contact| &contact.interface);
     let touching = contacts.filter(|interface| interface.bodies.contains(&BodyId::Ground(movement.ground)));
     let outline = Outline::lines(touching.map(|interface| interface.ends.map(|end| canvas.place(end))));
+    let middle = around(outline.points()).map(|rect| rect.at.moved(rect.width / 2.0, rect.height / 2.0));
     canvas.put(Mark::new(Layer::Stone, "ghosts", vec![Path::stroked(outline, present_edge(canvas))]));
+    // An arrow below the support shows where it moves.
+    if let Some(middle) = middle.filter(|_| movement.translation.norm() > 0.0) {
+        let (u, length) = (direction(movement.translation), canvas.mm(7.0));
+        let from = along(middle.moved(0.0, canvas.mm(3.2)), u, -0.5 * length, 0.0);
+        let arrow = canvas.arrow(length, [0.5, 1.7, 1.8], 0.6).outline(from, u);
+        let shape = Path::filled(arrow, moved_edge(canvas.theme())).cased(canvas.theme().page, canvas.mm(0.15));
+        let symbol = canvas.arrow(canvas.mm(4.8), [0.5, 1.7, 1.8], 0.6).outline(PagePoint::new(0.0, 0.0), (1.0, 0.0));
+        let symbol = vec![Path::filled(symbol, moved_edge(canvas.theme()))];
+        let key = Key::new(13, "movement of the support", symbol, canvas.mm(4.8));
+        canvas.put(Mark::new(Layer::Load, "movement", vec![shape]).keyed(&key).avoided(0.2));
+    }
 }
 
 /// Draws the joints that open or slide, with their amounts.
@@ -148,7 +145,7 @@ fn cracks(canvas: &mut Canvas<'_>, cracked: &Cracked) {
     };
     let joints: Vec<Gives<'_>> = cracked.cracks.iter().filter_map(one).collect();
     let words = ["hinge".to_owned(), "slides, and opens by friction × distance".to_owned()];
-    gives::draw(canvas, &joints, words);
+    gives::draw(canvas, &joints, words, Place::On);
     if !canvas.options.main_amounts {
         return;
     }
