@@ -400,6 +400,10 @@ fn joints_in_sets_have_their_friction_and_a_factor_acts_on_the_named_ones() {
     program.stdin.take().expect("a pipe").write_all(file(json!(["beds"])).to_string().as_bytes()).expect("written");
     let words = String::from_utf8(program.wait_with_output().expect("it ends").stdout).expect("text");
     assert!(words.contains("stands with the friction of beds times at least 0.5"), "{words}");
+    let beds = Analysis::with(scene(&file(json!(["beds"]))), &Options::default().margins(true));
+    let page = drystone::figure::draw(&beds, drystone::figure::Kind::Joints, &drystone::figure::Options::default());
+    let svg = drystone::output::svg::write(&page);
+    assert!(svg.contains("× the friction of beds") && !svg.contains("its friction"), "{svg}");
     for (key, value, code) in [
         ("friction_factor_on", json!(["arch"]), "arch"),
         ("joint_sets", json!([{ "id": "x", "bodies": ["a", "q"] }]), "q"),

@@ -198,7 +198,7 @@ pub struct FrameAnalysis {
     /// The results of the load cases, if the scene has any. All answers to questions hold in all cases; the forces, the
     /// failures and the mechanism are those of the worst case.
     pub cases: Option<LoadCases>,
-    /// The answers in the condition of the forces alone, if they were also examined in others.
+    /// The answers for the loads of the listed forces only. Present if the answers above also hold in other conditions.
     pub(crate) alone: Option<Arc<Alone>>,
     /// How accurately the blocks must be placed, if requested and if the frame stands.
     pub placement: Option<Placement>,

@@ -60,7 +60,7 @@ pub(super) fn same_position(scene: &Scene, (from, number): (&Frame, usize), to: 
     nearest.map(|(number, _)| number)
 }
 
-/// Returns a frame without a vehicle, and with its axles at each position.
+/// Returns the assembly of a frame without its vehicle, and then with the axles at each position.
 pub(super) fn in_all_positions(scene: &Scene, frame: &Frame, interfaces: &Interfaces) -> Vec<Assembly> {
     let bare = effect::assembly_of(scene, frame, interfaces);
     let found = scene.vehicle.as_ref().and_then(|own| Some((own, positions(scene, own, &track(scene, frame, own))?)));

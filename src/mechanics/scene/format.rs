@@ -303,15 +303,16 @@ entry! {
     pub struct JointSetEntry {
         /// Name of the set.
         id: required String,
-        /// The direction of the joints: `bed` for joints that cross the direction of gravity by 45° or more, as the beds of
-        /// a wall do, `head` for all others.
+        /// The direction of the joints: `bed` for joints at 45° or more to the direction of gravity, as the beds of a wall,
+        /// `head` for all others.
         direction: Option<JointDirection>,
-        /// Names of the two bodies, in any order: ids of blocks or of parts of the ground; `ground` is any part.
+        /// The two bodies, in any order: for each, the id of a block or of a part of the ground, or `ground` for any part of
+        /// the ground.
         bodies: Option<[String; 2]> as |r, node, at| two_names(r, node, at, "bodies").map(Some),
         /// Names of the materials of the two bodies, in any order.
         materials: Option<[String; 2]> as |r, node, at| two_names(r, node, at, "materials").map(Some),
-        /// Friction coefficient of the joints of this set, at least 0. It replaces those of bodies, materials and pairs of
-        /// materials; contacts that the scene lists keep their own.
+        /// Friction coefficient of the joints of this set, at least 0. It comes before the coefficients of bodies, of
+        /// materials and of pairs of materials. Listed contacts keep their own.
         friction: Option<f64> [range(min = 0.0)],
     }
 }

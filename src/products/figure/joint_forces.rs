@@ -23,6 +23,7 @@ use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Theme};
 use crate::products::wording::failure::pair;
 use crate::products::wording::margin::governing;
 use crate::products::wording::number::{digits, force, quantity, round_below_in, three_down, three_up};
+use crate::products::wording::question::factored_friction;
 
 /// A force below this share of the largest is numerical noise and has no mark.
 const NOISE: f64 = 1e-6;
@@ -466,7 +467,9 @@ pub(crate) fn collapse(canvas: &mut Canvas<'_>) {
         (Some(MarginKind::Tilt), Some(angle)) => format!(" at {}° of tilt", three_down(angle.abs())),
         (Some(MarginKind::HorizontalLoad), Some(share)) => format!(" at {} × its weight", three_down(share.abs())),
         (Some(MarginKind::Friction), Some(friction)) => format!(" at friction {}", three_up(friction)),
-        (Some(MarginKind::FrictionFactor), Some(factor)) => format!(" at {} × its friction", three_up(factor)),
+        (Some(MarginKind::FrictionFactor), Some(factor)) => {
+            format!(" at {} × {}", three_up(factor), factored_friction(canvas.scene()))
+        }
         _ if governing.at.is_empty() => String::new(),
         _ => format!(" at {}", governing.at),
     };

@@ -23,6 +23,7 @@ use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke};
 use crate::products::wording::failure::pair;
 use crate::products::wording::margin::{confirmed, governing, stated};
 use crate::products::wording::number::{FULL_UTILISATION, digits, percent, quantity, three_down, three_up};
+use crate::products::wording::question::factored_friction;
 use crate::products::wording::verdict::reason;
 
 /// The width of the line of a joint in unit lengths, with its least and largest width in mm.
@@ -94,10 +95,11 @@ fn friction_words(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
     let present = of(MarginKind::Friction).and_then(|margin| margin.present);
     match (needed(MarginKind::Friction), present) {
         (Some(0.0), _) => Some("needs no friction".to_owned()),
-        (Some(needed), Some((least, most))) if least == most => {
+        (Some(needed), Some((least, most))) if least == most && scene.factored_sets().next().is_none() => {
             Some(format!("needs friction {}, has {}", three_up(needed), digits(most)))
         }
-        _ => needed(MarginKind::FrictionFactor).map(|factor| format!("needs {} × its friction", three_up(factor))),
+        _ => needed(MarginKind::FrictionFactor)
+            .map(|factor| format!("needs {} × {}", three_up(factor), factored_friction(scene))),
     }
 }
 

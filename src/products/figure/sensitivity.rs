@@ -54,7 +54,7 @@ impl Figure for CornerEffects {
             return vec![without(sensitivity.kind, reason)];
         }
         let Some(plan) = Plan::new(analysis, frame, options) else { return Vec::new() };
-        let (limit, end) = (value(plan.kind, plan.value), end_name(plan.kind, plan.is_high));
+        let (limit, end) = (value(plan.kind, plan.value, plan.is_high), end_name(plan.kind, plan.is_high));
         let name = name(plan.kind, plan.is_high);
         let mut words = vec![format!("limit: {name} {limit} ({end} end of the interval in which the frame stands)")];
         if plan.arrows.is_empty() && plan.changes.is_empty() {
@@ -299,7 +299,7 @@ impl Plan {
                 arrows.push(CornerArrow { at: corner.at, effect: direction * rate, number: number_of(number) });
             }
         }
-        let sketch = Sketch { scene, frame_analysis, end, kind };
+        let sketch = Sketch { scene, frame_analysis, end, kind, is_high };
         let changes = changes.iter().enumerate();
         let changes = changes.map(|(place, change)| sketch.numbered(place + 1, change));
         Some(Plan { kind, is_high, value: end.value, changes: changes.collect(), arrows, kinks, step })
@@ -348,6 +348,7 @@ struct Sketch<'a> {
     frame_analysis: &'a FrameAnalysis,
     end: &'a EndSensitivity,
     kind: MarginKind,
+    is_high: bool,
 }
 
 impl Sketch<'_> {
@@ -381,7 +382,7 @@ impl Sketch<'_> {
             }
             Target::AllFriction => (None, format!("friction of all joints {}", friction_change_text(change))),
         };
-        let after = words::value(self.kind, change.after);
+        let after = words::value(self.kind, change.after, self.is_high);
         Numbered {
             number,
             at,

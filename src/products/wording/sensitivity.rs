@@ -1,8 +1,8 @@
 //! Describes the sensitivity of a margin: which small changes of the scene change the margin most.
 
 use super::failure::{named, pair};
-use super::margin::side;
-use super::number::{amount, counted, digits, round_below_in, three};
+use super::margin;
+use super::number::{amount, counted, digits, round_below_in};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::{
     CornerMoves, EndSensitivity, FALLS, FrameAnalysis, MarginKind, NoSensitivity, STANDS, Sensitivity, Slope,
@@ -88,9 +88,9 @@ pub fn visible(
     (kind, end, is_high): (MarginKind, &EndSensitivity, bool),
     most: usize,
 ) -> Vec<EffectiveChange> {
-    let before = value(kind, end.value);
+    let before = value(kind, end.value, is_high);
     let mut changes = most_effective(scene, frame_analysis, end, is_high, most);
-    changes.retain(|change| value(kind, change.after) != before);
+    changes.retain(|change| value(kind, change.after, is_high) != before);
     changes
 }
 
@@ -234,15 +234,9 @@ pub fn name(kind: MarginKind, is_high: bool) -> &'static str {
     kind.about().limited[usize::from(is_high)]
 }
 
-/// Writes the value of a margin with three significant digits. For tilt and horizontal load, a word replaces the sign:
-/// −5 becomes `5.00° left`. The word depends only on the sign, also for an end of an interval: a right (upper) end
-/// below 0 is written as `left`.
-pub fn value(kind: MarginKind, value: f64) -> String {
-    // Values below this are rounding errors.
-    let value = if value.abs() < 1e-12 { 0.0 } else { value };
-    let side = if kind.is_signed() { side(value) } else { "" };
-    let size = if kind.is_signed() { value.abs() } else { value };
-    format!("{}{}{side}", three(size), kind.about().unit)
+/// Writes the value of an end of a margin as the margin itself does: rounded into the interval in which the frame stands.
+pub fn value(kind: MarginKind, value: f64, is_high: bool) -> String {
+    margin::end(kind, value, is_high)
 }
 
 /// Names an end of the interval of a margin: `upper` or `lower`, for tilts and horizontal loads `right` or `left`.
@@ -260,7 +254,7 @@ pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis, sensitivity: &Sensit
         lines.push(without(kind, reason));
     }
     for (is_high, end) in sensitivity.ends() {
-        let before = value(kind, end.value);
+        let before = value(kind, end.value, is_high);
         let changes = visible(scene, frame_analysis, (kind, end, is_high), 10);
         let name = name(kind, is_high);
         let stated = format!(
@@ -273,7 +267,7 @@ pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis, sensitivity: &Sensit
             format!("{stated}; what changes it most, estimated from derivatives:")
         });
         for change in &changes {
-            let after = value(kind, change.after);
+            let after = value(kind, change.after, is_high);
             lines.push(format!("  {}: {name} {before} → about {after}", change.words));
         }
         let kinks = kinks(end);

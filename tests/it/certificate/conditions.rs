@@ -94,3 +94,30 @@ fn the_program_compares_the_conditions_with_those_of_the_scene() {
     let (code, said) = run("verify wrong.json");
     assert!(code == Some(3) && said.contains("not placed"), "{code:?} {said}");
 }
+
+/// Each frame is proved with the loads of its own worst case.
+#[test]
+fn frames_are_proved_in_their_worst_load_case() {
+    let side = |x: f64| json!([[x, 0], [x + 1.0, 0], [x + 1.0, 2], [x, 2]]);
+    let push = |id: &str, x: f64| json!({ "id": id, "block": id, "force": [8, 0], "at": [x, 2] });
+    let scene = json!({ "drystone": 1, "friction": 0.9,
+        "ground": [{ "polygon": [[-9, 0], [9, 0], [9, -1], [-9, -1]] }],
+        "blocks": [{ "id": "a", "polygon": side(0.0), "weight": 9 }, { "id": "b", "polygon": side(4.0), "weight": 9 }],
+        "loads": [push("a", 0.0), push("b", 4.0)],
+        "cases": [{ "id": "on a", "loads": { "a": 1 } }, { "id": "on b", "loads": { "b": 1 } }],
+        "steps": [{ "place": ["a"] }, { "place": ["b"], "remove": ["a"] }] });
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("cases.json"), scene.to_string()).expect("writable");
+    let ran = Command::new(env!("CARGO_BIN_EXE_drystone"))
+        .args(["check", "cases.json", "--json", "--accuracy", "proved"])
+        .current_dir(folder.path())
+        .output()
+        .expect("starts");
+    let json: Value = serde_json::from_slice(&ran.stdout).expect("JSON");
+    for (number, case) in ["on a", "on b"].into_iter().enumerate() {
+        let frame = &json["frames"][number];
+        assert_eq!(frame["verdict"], "unstable");
+        assert_eq!(frame["governing_case"], case);
+        assert_eq!(frame["proof"]["exact"], true, "{frame}");
+    }
+}

@@ -118,7 +118,7 @@ impl LoadCapacity {
             })
     }
 
-    /// Returns the forces that a block carries in two conditions. `None` if the sets could not be intersected.
+    /// Returns the forces that a block carries in both of two conditions. `None` if their intersection was not found.
     pub(in crate::mechanics::analysis) fn and(self, other: LoadCapacity) -> Option<LoadCapacity> {
         let cases = self.cases + other.cases;
         let is_empty = |own: &LoadCapacity| own.shape() == CapacityShape::Empty;

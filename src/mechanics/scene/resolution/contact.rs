@@ -15,6 +15,11 @@ const SYMBOL_SIZE_SHARE: f64 = 0.03;
 /// The number of corners of the schematic disc around a centre.
 const DISC_CORNERS: usize = 8;
 
+/// Returns the number of the part of the ground with this id.
+pub(super) fn part_named(ground: &[Option<Ground>], id: &str) -> Option<usize> {
+    ground.iter().position(|part| part.as_ref().is_some_and(|own| own.id.as_deref() == Some(id)))
+}
+
 impl Resolution<'_> {
     /// True if the file lists its contacts, or has a block without an outline. Contacts are then not computed from
     /// outlines, and bodies are not healed.
@@ -37,8 +42,6 @@ impl Resolution<'_> {
                 ground.iter().map(|part| part.as_ref().map_or(f64::INFINITY, |g| g.body.polygon.distance(at)));
             distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |found| found.0)
         };
-        let part =
-            |name: &str| ground.iter().position(|part| part.as_ref().is_some_and(|g| g.id.as_deref() == Some(name)));
         let top = Trail::Top;
         let list = top.key("contacts");
         let mut contacts = Vec::new();
@@ -50,7 +53,7 @@ impl Resolution<'_> {
             let names = at.key("bodies");
             let mut bodies = [0, 1].map(|side| match entry.bodies[side].as_str() {
                 "ground" => Some(BodyId::Ground(nearest(entry.at))),
-                name => match (blocks.get(name), part(name)) {
+                name => match (blocks.get(name), part_named(ground, name)) {
                     (None, Some(part)) => Some(BodyId::Ground(part)),
                     _ => blocks.find(findings, &names.index(side), name).map(|number| BodyId::Block(BlockId(number))),
                 },

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::body::colour;
+use super::contact::part_named;
 use super::{MaterialValues, Resolution};
 use crate::geometry::{LatticeKind, Point};
 use crate::mechanics::scene::finding::Findings;
@@ -90,8 +91,6 @@ impl Resolution<'_> {
         let wanted = self.file.friction_factor_on.iter().enumerate();
         let factored: Vec<usize> =
             wanted.filter_map(|(place, name)| names.find(findings, &on.index(place), name)).collect();
-        let part =
-            |name: &str| ground.iter().position(|part| part.as_ref().is_some_and(|g| g.id.as_deref() == Some(name)));
         let list = top.key("joint_sets");
         let mut sets = Vec::new();
         for (number, entry) in self.file.joint_sets.iter().enumerate() {
@@ -106,14 +105,15 @@ impl Resolution<'_> {
             };
             if let Some(given) = &entry.bodies {
                 let at = at.key("bodies");
-                let mut found = given.iter().enumerate().map(|(side, name)| match (name.as_str(), part(name)) {
-                    ("ground", _) => Some(JointBody::AnyGround),
-                    (_, Some(part)) if blocks.get(name).is_none() => Some(JointBody::Is(BodyId::Ground(part))),
-                    _ => {
-                        let block = blocks.find(findings, &at.index(side), name)?;
-                        Some(JointBody::Is(BodyId::Block(BlockId(block))))
-                    }
-                });
+                let mut found =
+                    given.iter().enumerate().map(|(side, name)| match (name.as_str(), part_named(ground, name)) {
+                        ("ground", _) => Some(JointBody::AnyGround),
+                        (_, Some(part)) if blocks.get(name).is_none() => Some(JointBody::Is(BodyId::Ground(part))),
+                        _ => {
+                            let block = blocks.find(findings, &at.index(side), name)?;
+                            Some(JointBody::Is(BodyId::Block(BlockId(block))))
+                        }
+                    });
                 set.bodies = found.next().flatten().zip(found.next().flatten());
             }
             if let Some([a, b]) = &entry.materials {

@@ -15,7 +15,7 @@ const GRAVITY_LENGTH: f64 = 10.0;
 /// Distance between these arrows and the structure, mm.
 const GRAVITY_DISTANCE: f64 = 3.0;
 
-/// States at which values of the parameter a frame stands.
+/// Says with which values of the parameter the frame stands.
 pub(super) fn words(scene: &Scene, found: &FrameAnalysis, toward: MarginKind) -> String {
     let margins = stated(scene, found);
     match (margins.iter().find(|margin| margin.kind == toward), toward) {

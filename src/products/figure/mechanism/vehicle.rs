@@ -21,7 +21,7 @@ use super::Mechanism;
 
 /// The height of the curve, and its distance from the vehicle, mm.
 const HEIGHT: f64 = 16.0;
-const DISTANCE: f64 = 3.0;
+const CHART_GAP: f64 = 3.0;
 /// The length of the arrow of the heaviest axle, mm.
 const AXLE: f64 = 7.0;
 /// The curve ends at least at this multiple of the least factor; larger factors are cut off.
@@ -91,7 +91,7 @@ fn vehicle(canvas: &mut Canvas<'_>, position: Option<&VehiclePosition>) {
 }
 
 /// Returns the numbers of an axis from 0 to at least `least`: 0, a step, … The step is 1, 2 or 5 times a power of ten.
-fn numbers(least: f64, most_steps: f64) -> Vec<f64> {
+fn tick_values(least: f64, most_steps: f64) -> Vec<f64> {
     let mut step = 1.0;
     while least / step > most_steps {
         let tens = libm::pow(10.0, libm::floor(libm::log10(step)));
@@ -115,9 +115,9 @@ fn curve(canvas: &mut Canvas<'_>, influence: &Influence, position: Option<&Vehic
     let x = |at: f64| camera.place((across * at).into()).x;
     let size = canvas.label_size();
     // The height of the axles is reserved, so that the curve does not move in an animation.
-    let base = canvas.structure.at.y.min(canvas.extent().at.y + canvas.mm(AXLE)) - canvas.mm(AXLE + DISTANCE) - size;
+    let base = canvas.structure.at.y.min(canvas.extent().at.y + canvas.mm(AXLE)) - canvas.mm(AXLE + CHART_GAP) - size;
     let height = canvas.mm(HEIGHT);
-    let mut ticks = numbers((MOST * least).max(1.5), height / (APART * size));
+    let mut ticks = tick_values((MOST * least).max(1.5), height / (APART * size));
     let top = ticks.last().copied().unwrap_or(1.0);
     if !ticks.contains(&1.0) {
         // The numbers beside 1 give way to it.
@@ -168,7 +168,7 @@ fn curve(canvas: &mut Canvas<'_>, influence: &Influence, position: Option<&Vehic
     if let Some(position) = position.filter(|own| is_over(own)) {
         let factor = position.factor.filter(|factor| *factor <= top);
         let at = PagePoint::new(x(position.at), y(factor.unwrap_or(top)));
-        let foot = PagePoint::new(at.x, base + canvas.mm(DISTANCE));
+        let foot = PagePoint::new(at.x, base + canvas.mm(CHART_GAP));
         let drop = Path::stroked(Outline::line([at, foot]), canvas.dashes(theme.failure, 0.2, [0.7, 0.5]));
         let dot = canvas.disc(at, 0.8, theme.failure);
         let words = position.factor.map_or("no limit".to_owned(), three_down);
