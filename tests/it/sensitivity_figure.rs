@@ -107,7 +107,7 @@ fn arrows_have_the_directions_and_lengths_of_the_derivatives() {
 fn the_most_effective_changes_are_listed_with_their_values() {
     let analysis = analysed(&of_assets("study/arch-27.json"), MarginKind::Tilt);
     let text = svg::write(&draw(&analysis));
-    assert!(text.contains("limit: tilt 15.9° right (right end of the interval in which the frame stands)"), "{text}");
+    assert!(text.contains("limit: tilt 15.8° right (right end of the interval in which the frame stands)"), "{text}");
     assert!(text.contains("+2 mm → about 16.1° right"), "{text}");
     let starter =
         Analysis::with(of_assets("starter.json"), &AnalysisOptions::default().sensitivity(MarginKind::LoadFactor));
