@@ -6,8 +6,6 @@ use std::sync::Arc;
 
 use super::value::{FrameChoice, SensitivityMargin, TimeLimit, length, reach, seconds};
 use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Reach, typed_capacity};
-#[cfg(feature = "certificate")]
-use crate::mechanics::certificate::Certificate;
 use crate::mechanics::scene::{BlockId, Scene, SceneError, Setting};
 use crate::pictures::drawing::Theme;
 use crate::products::figure::{self, At, Fill, Kind, View};
@@ -19,7 +17,8 @@ request! {
     #[derive(Clone, Debug)]
     pub(crate) struct AnalysisArgs(given) {
         /// How strict the proof of a verdict must be; proved is stricter than standard by a factor of 100 for forces
-        /// and 1000 for motions, and says which verdicts hold in exact arithmetic
+        /// and 1000 for motions, and says which verdicts hold in exact arithmetic; with exact, a verdict that does not is
+        /// undecided
         accuracy: Accuracy = given.word("accuracy").unwrap_or_default(),
             arg(long, value_name = "LEVEL", default_value = "standard", env = "DRYSTONE_ACCURACY",
                 hide_env_values = true, value_parser = crate::text::typed_word::<Accuracy>());
@@ -283,15 +282,11 @@ impl CheckArgs {
         Ok(self.analysed(scene, &options))
     }
 
-    /// Analyses a scene. With `--accuracy proved`, the analysis says which verdicts are proved exactly.
+    /// Analyses a scene, and leaves out notes that are not wanted.
     pub(crate) fn analysed(&self, scene: impl Into<Arc<Scene>>, options: &analysis::Options) -> Analysis {
-        let mut analysis = Analysis::with(scene, options);
+        let mut analysis = Analysis::exact(scene, options);
         if self.no_notes {
             analysis.notes.clear();
-        }
-        #[cfg(feature = "certificate")]
-        if self.level.accuracy == Accuracy::Proved {
-            Certificate::note_exact(&mut analysis, options);
         }
         analysis
     }

@@ -23,3 +23,5 @@ pub mod batch;
 
 #[cfg(feature = "certificate")]
 pub mod certificate;
+
+mod exact;

@@ -15,6 +15,7 @@ use crate::mechanics::scene::Scene;
 use crate::mechanics::solve::{Amounts, Conditioning, SolverSettings, Status, TOLERANCE, by_clarabel};
 use crate::mechanics::statics::effect::{self, FrameContext};
 use crate::mechanics::statics::interface::Interfaces;
+use crate::text::Word;
 
 /// The solver tolerances of the study.
 pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12];
@@ -40,8 +41,7 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Method::Clarabel => "clarabel",
-            Method::Level(Accuracy::Standard) => "standard",
-            Method::Level(Accuracy::Proved) => "proved",
+            Method::Level(level) => level.word(),
         }
     }
 }

@@ -21,7 +21,7 @@ use crate::entry::cli::source::read_in_time;
 use crate::entry::cli::style_args::StyleArgs;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::{AnalysisArgs, MarginArgs};
-use crate::mechanics::analysis::{Analysis, Options, Verdict, verdicts};
+use crate::mechanics::analysis::{Accuracy, Analysis, Options, Verdict, verdicts};
 use crate::mechanics::batch::{Capacity, Record, Records, in_order};
 use crate::mechanics::scene::{Code, Problem, isolate};
 use crate::pictures::output::file::Existing;
@@ -290,14 +290,15 @@ impl SceneWork {
             Err(late) => return Ok(self.refused(origin, &[Problem::alone(Code::NotReadable, late, "")])),
         };
         let options = self.options(&level);
-        if self.drawn.is_none() && self.fields.are_few() && self.form == Form::Json {
+        let is_plain = self.drawn.is_none() && options.accuracy != Accuracy::Exact;
+        if is_plain && self.fields.are_few() && self.form == Form::Json {
             let found = verdicts(&scene, &options);
             let ending = ExitStatus::from_verdicts(&scene, found.iter().copied());
             let verdict = found.into_iter().max().unwrap_or(Verdict::Stable);
             let line = verdict_line(origin, &scene.title, verdict, &self.fields);
             return Ok((line, ending));
         }
-        let analysis = Analysis::with(&scene, &options);
+        let analysis = Analysis::exact(&scene, &options);
         let picture = match &self.drawn {
             None => PictureOutcome::NotAsked,
             Some(drawn) => drawn.draw(&analysis, name)?,

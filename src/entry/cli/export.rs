@@ -52,7 +52,7 @@ impl Export {
             return Err(CliError::CommandLine(why).into());
         };
         let text = source::isolated(&self.scene, || {
-            figure::dxf(&Analysis::with(source.scene.clone(), &self.level.options()), 0)
+            figure::dxf(&Analysis::exact(source.scene.clone(), &self.level.options()), 0)
         });
         // Without `--force`, keep an existing file: it may be the drawing from which the scene was imported.
         destination::deliver(terminal, file, text?.into_bytes(), self.force)?;

@@ -308,7 +308,7 @@ impl Render {
             return Err(why.into());
         }
         let scenes = sources.map(|source| self.shown(source, format, fonts));
-        let [before, after] = [&scenes[0], &scenes[1]].map(|s| Analysis::with(s.clone(), analysis_options));
+        let [before, after] = [&scenes[0], &scenes[1]].map(|s| Analysis::exact(s.clone(), analysis_options));
         let title = |number: usize| match scenes[number].title.as_str() {
             title if title.is_empty() || scenes[0].title == scenes[1].title => sources[number].stem(),
             title => title.to_owned(),

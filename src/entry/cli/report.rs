@@ -287,7 +287,8 @@ impl Report {
                 source.scene = missing_glyphs::legible(&source.scene, &Fonts::default()).into();
             }
         }
-        let analyses: Vec<Analysis> = read.iter().map(|source| Analysis::with(source.scene.clone(), options)).collect();
+        let analyses: Vec<Analysis> =
+            read.iter().map(|source| Analysis::exact(source.scene.clone(), options)).collect();
         let ending = analyses.iter().map(ExitStatus::from_analysis).max();
         let Some(mut entry) = entry(&read, &analyses, report_options) else {
             return Ok(Err(Vec::new()));

@@ -95,7 +95,7 @@ impl Session {
     /// `options` have no effect.
     fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
         let scene = self.inner.scene();
-        Analysis::new(py.detach(|| analysis::Analysis::with(scene, &options.request.what.base())))
+        Analysis::new(py.detach(|| analysis::Analysis::exact(scene, &options.request.what.base())))
     }
 
     /// Computes all forces that a placed block can carry, and returns them as JSON. `typed` and `for_all` are written

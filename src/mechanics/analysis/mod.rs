@@ -77,6 +77,7 @@ pub use reach::{Change, ChangeKind, Reach, Reached};
 pub use removable::{Help, Removable};
 pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, LoadSlope, NoSensitivity, Sensitivity, Slope};
 pub use thrust_states::{ThrustState, ThrustStates};
+pub(in crate::mechanics) use undecided::INEXACT;
 pub use undecided::UndecidedReason;
 pub use vehicle::{Influence, UnderVehicle};
 pub use warm_start::{Source, verdicts};

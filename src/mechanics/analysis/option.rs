@@ -59,6 +59,9 @@ words! {
         Standard = "standard";
         /// A proof must meet [`ProofThreshold::STRICT`].
         Proved = "proved";
+        /// A proof must meet [`ProofThreshold::STANDARD`], and forces or a motion must prove the verdict in exact
+        /// arithmetic. [`Analysis::exact`](super::Analysis::exact) computes this.
+        Exact = "exact";
     }
 }
 
@@ -66,7 +69,7 @@ impl Accuracy {
     /// Returns the threshold that a proof must meet at this accuracy.
     pub fn demand(self) -> ProofThreshold {
         match self {
-            Accuracy::Standard => ProofThreshold::STANDARD,
+            Accuracy::Standard | Accuracy::Exact => ProofThreshold::STANDARD,
             Accuracy::Proved => ProofThreshold::STRICT,
         }
     }
@@ -143,7 +146,7 @@ impl Options {
     /// strong enough.
     pub(super) fn solver_settings(self) -> [SolverSettings; 2] {
         let full = match self.accuracy {
-            Accuracy::Standard => SolverSettings::from(Conditioning::Full),
+            Accuracy::Standard | Accuracy::Exact => SolverSettings::from(Conditioning::Full),
             // A strict proof needs a smaller tolerance: only a more accurate solution reduces the solver's error in a
             // motion.
             Accuracy::Proved => SolverSettings { tolerance: TOLERANCE * 1e-2, ..Conditioning::Full.into() },

@@ -6,12 +6,22 @@ use super::{FrameAnalysis, Verdict};
 use crate::mechanics::proof::Proof;
 use crate::text::power_of_ten;
 
+/// How a notice begins that says what the exact proof of a verdict misses.
+pub(in crate::mechanics) const INEXACT: &str = "the verdict is not proved in exact arithmetic: ";
+
 /// One reason why a frame is undecided; its `Display` describes it in a sentence.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum UndecidedReason {
     /// [`Options::deadline`](super::Options::deadline) passed before the frame was decided.
     Late,
+    /// The accuracy [`Exact`](super::Accuracy::Exact) is asked for, and exact arithmetic does not prove the verdict.
+    Inexact {
+        /// The verdict that is proved within the tolerances.
+        verdict: Verdict,
+        /// In words: what is missing.
+        fault: String,
+    },
     /// The vehicle of the scene has more positions than are decided.
     TooManyPositions {
         /// The largest number of positions.
@@ -50,6 +60,11 @@ impl fmt::Display for UndecidedReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             UndecidedReason::Late => f.write_str("the time limit was reached before it was decided"),
+            UndecidedReason::Inexact { verdict, fault } => write!(
+                f,
+                "it {} within the tolerances of --accuracy standard, but not in exact arithmetic: {fault}",
+                verdict.plain()
+            ),
             UndecidedReason::TooManyPositions { most } => write!(
                 f,
                 "the vehicle has more than {most} positions; give it fewer axles, or name the blocks that it passes \
@@ -82,7 +97,7 @@ impl fmt::Display for UndecidedReason {
 
 impl FrameAnalysis {
     /// Makes the frame undecided for this reason, beside its other reasons.
-    pub(super) fn leave_undecided(&mut self, reason: UndecidedReason) {
+    pub(in crate::mechanics) fn leave_undecided(&mut self, reason: UndecidedReason) {
         self.verdict = Verdict::Undecided;
         self.doubts.push(reason);
     }

@@ -18,7 +18,7 @@ use super::{
     BodyForm, Certificate, Change, CircleForm, ContactForm, ForcesForm, FrameForm, GripForm, LimitForm, LoadForm, Pair,
 };
 use crate::geometry::{Point, Vector};
-use crate::mechanics::analysis::{Analysis, Condition, FrameAnalysis, Options, Verdict, mechanism_of};
+use crate::mechanics::analysis::{Analysis, Condition, FrameAnalysis, INEXACT, Options, Verdict, mechanism_of};
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::mechanics::solve::{DeadlineGuard, is_late};
@@ -57,12 +57,11 @@ impl Certificate {
             !is_late()
         });
         certificate.scene_sha256 = scene_sha256;
-        for number in first.iter().copied().collect::<BTreeSet<usize>>() {
-            let conditions = certificate.conditions_of(analysis, number);
+        certificate.in_each_condition(analysis, |number, conditions| {
             if let Some((_, limits)) = proved.get_mut(&(number + 1)) {
                 limits.extend(conditions);
             }
-        }
+        });
         for (number, first) in first.into_iter().enumerate() {
             let (frame, (form, limits)) = (number + 1, &proved[&(first + 1)]);
             certificate.frames.push(FrameForm { frame, ..form.clone() });
@@ -71,13 +70,31 @@ impl Certificate {
         certificate
     }
 
+    /// Proves the verdict of each frame in its other conditions, one for all frames that share their results. A frame has a
+    /// notice if the proof in some condition is not exact. `keep` has the number of the frame, from 0, and the proofs.
+    fn in_each_condition(&self, analysis: &mut Analysis, mut keep: impl FnMut(usize, Vec<LimitForm>)) {
+        let first: BTreeSet<usize> = analysis.of_each(|number| number).into_iter().collect();
+        let mut faults = BTreeMap::new();
+        for number in first {
+            let (proofs, fault) = self.conditions_of(analysis, number);
+            keep(number, proofs);
+            faults.extend(fault.map(|fault| (number, fault)));
+        }
+        analysis.change_each(|number, _, found| {
+            if let Some(fault) = faults.get(&number).filter(|_| found.exact == Some(true)) {
+                let found = Arc::make_mut(found);
+                found.exact = Some(false);
+                found.notices.push(inexact(fault));
+            }
+        });
+    }
+
     /// If a frame stands, proves its verdict in every condition except the governing one, which the entry of the frame
-    /// proves. Adds a notice to the frame if the proof in some condition is not exact.
-    fn conditions_of(&self, analysis: &mut Analysis, number: usize) -> Vec<LimitForm> {
-        let given = analysis.given().clone();
-        let found = analysis.frames[number].clone();
+    /// proves. Also returns what the first of these proofs that is not exact misses.
+    fn conditions_of(&self, analysis: &Analysis, number: usize) -> (Vec<LimitForm>, Option<String>) {
+        let (given, found) = (analysis.given(), &analysis.frames[number]);
         if !given.has_conditions() || found.verdict != Verdict::Stable {
-            return Vec::new();
+            return (Vec::new(), None);
         }
         let cases: Vec<Option<usize>> = match given.cases().len() {
             0 => vec![None],
@@ -115,19 +132,15 @@ impl Certificate {
             missing = missing.or(faults.first().map(|fault| format!("{of}: {fault}")));
             proofs.push(LimitForm::new(&of, Change { loads: Some(loads), ..Change::default() }, form));
         }
-        if let Some(fault) = missing {
-            let found = Arc::make_mut(&mut analysis.frames[number]);
-            found.exact = Some(false);
-            found.notices.push(format!("the verdict is not proved in exact arithmetic: {fault}"));
-        }
-        proofs
+        (proofs, missing)
     }
 
     /// Notes in an analysis which verdicts exact arithmetic proves and what the others miss, as [`Certificate::new`] does,
     /// but keeps no proof, and ends at the deadline of the options.
     pub(crate) fn note_exact(analysis: &mut Analysis, options: &Options) {
         let _until = DeadlineGuard::new(options.deadline);
-        Certificate::prove_each(analysis, |_, _| true);
+        let certificate = Certificate::prove_each(analysis, |_, _| true);
+        certificate.in_each_condition(analysis, |_, _| ());
     }
 
     /// Proves the verdict of each frame, one for all frames that share their results, and notes whether the proof is
@@ -169,8 +182,7 @@ impl Certificate {
             if found.verdict != Verdict::Undecided && found.exact.is_none() {
                 let found = Arc::make_mut(found);
                 found.exact = Some(faults.is_empty());
-                let notice = |fault| format!("the verdict is not proved in exact arithmetic: {fault}");
-                found.notices.extend(faults.first().map(notice));
+                found.notices.extend(faults.first().map(|fault| inexact(fault)));
                 if !is_whole {
                     found.notices.push(format!("the certificate may lack proofs of this frame: {LATE}"));
                 }
@@ -284,6 +296,11 @@ impl Certificate {
             ForcesForm { contacts: contacts.collect(), grips: of_grips.to_vec(), order, reactions: Vec::new() };
         Some(FrameForm { forces: Some(forces), ..bare.clone() })
     }
+}
+
+/// Says what the exact proof of a verdict misses.
+fn inexact(fault: &str) -> String {
+    format!("{INEXACT}{fault}")
 }
 
 /// Writes a frame without its proof.

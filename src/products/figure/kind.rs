@@ -184,10 +184,10 @@ impl Kind {
         if self.needs_capacity() && analysis_options.capacity.is_none() {
             analysis_options.capacity = CapacityRequest::default_for(scene);
         }
-        let analysis = Analysis::with(scene, &analysis_options);
+        let analysis = Analysis::exact(scene, &analysis_options);
         match self.stated_margins(&analysis) {
             Some(kinds) if !analysis_options.margins => {
-                Analysis::with(scene, &analysis_options.margins(true).margin_kinds(kinds))
+                Analysis::exact(scene, &analysis_options.margins(true).margin_kinds(kinds))
             }
             _ => analysis,
         }

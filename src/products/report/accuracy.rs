@@ -64,7 +64,7 @@ pub fn svg(study: &[Case]) -> Result<String, ChartError> {
         colour: match method {
             Method::Clarabel => [140, 95, 175],
             Method::Level(Accuracy::Standard) => [55, 145, 70],
-            Method::Level(Accuracy::Proved) => [15, 85, 50],
+            Method::Level(Accuracy::Proved | Accuracy::Exact) => [15, 85, 50],
         },
         points: lines.iter().filter(|l| l.method == method).filter(shown).map(point).collect(),
     });

@@ -537,7 +537,7 @@ pub static KEYS: &[Key] = &[
             key("power", Number, "lower bound of the power of the loads along the motion, less what robots can absorb; as a share of the loads on the moving blocks, each weighted by the speed of its block").when("in a proof by a motion"),
             key("worst_violation", Number, "largest velocity against which an admissible force could act, relative to the fastest point").when("in a proof by a motion"),
             key("no_balance_below", Bound, "forces whose sum is below this multiple of the loads on the moving blocks cannot balance the blocks; `\"unbounded\"` if no forces can").when("in a proof by a motion"),
-            key("exact", Flag, "whether forces or a motion prove the verdict in exact arithmetic; if not, a notice says what is missed").when("with `--certificate` or `--accuracy proved`"),
+            key("exact", Flag, "whether forces or a motion prove the verdict in exact arithmetic; if not, a notice says what is missed").when("with `--certificate`, `--accuracy proved` or `--accuracy exact`"),
         ]),
         key("solve", Object, "how the verdict was found").of(&[
             key("method", Text, "method that decided: `closed form`, `kinematic`, `kinematic, refined`, `least residual` or `least sticking`"),

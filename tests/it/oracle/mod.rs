@@ -20,7 +20,7 @@ pub mod touch;
 mod wedge;
 
 use dashu_ratio::RBig;
-use drystone::analysis::{FrameAnalysis, Verdict};
+use drystone::analysis::{Accuracy, FrameAnalysis, Options, Verdict};
 use drystone::{Analysis, Scene};
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -82,6 +82,13 @@ fn compared(scene: &Scene, exact: bool, with_forces: bool) -> (Standing, Option<
     }
     let ruled_out = (frame.verdict == Verdict::Unstable).then(|| frame.proof.excluded_force_sum());
     let (standing, error) = judged(scene, &touches, frame, with_forces);
+    if let (Standing::WithinBand(verdict), true) = (standing, exact) {
+        // At the accuracy `exact`, no tolerance excuses a verdict.
+        let found = Analysis::exact(scene, &Options::default().accuracy(Accuracy::Exact)).frames[0].verdict;
+        if verdict != Verdict::Undecided && found == verdict {
+            return (Standing::Wrong, error, ruled_out);
+        }
+    }
     (standing, error, ruled_out)
 }
 

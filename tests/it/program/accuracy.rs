@@ -69,15 +69,45 @@ fn an_undecided_verdict_ends_with_three_and_states_the_reason() {
 }
 
 #[test]
+fn at_the_level_exact_a_verdict_that_rests_on_a_tolerance_is_undecided_in_every_command() {
+    let bench = Bench::new();
+    // A stack of bricks with the largest overhang, in rounded coordinates: the forces balance to 10⁻¹¹ N, and not exactly.
+    let stack = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/validation/stack-4.json");
+    fs::copy(stack, bench.path("limit.json")).expect("copied");
+    assert_eq!(bench.run("check limit.json").code, 0);
+    for command in ["check", "check --json", "batch -o out.ndjson", "batch --fields=verdict -o few.ndjson"] {
+        assert_eq!(bench.run(&format!("{command} --accuracy exact limit.json")).code, 3, "{command}");
+    }
+    for (command, code) in [("render limit.json -o limit.svg --strict", 3), ("report limit.json -o report.md", 0)] {
+        assert_eq!(bench.run(&format!("{command} --accuracy exact")).code, code, "{command}");
+    }
+    for file in ["limit.svg", "report.md", "few.ndjson"] {
+        let text = fs::read_to_string(bench.path(file)).expect("written");
+        assert!(text.contains("undecided") && !text.contains(">stands<"), "{file}: {text}");
+    }
+    let ran = bench.run("check limit.json --accuracy exact --json");
+    let result: Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(
+        (&result["frames"][0]["verdict"], &result["frames"][0]["proof"]["exact"]),
+        (&"undecided".into(), &false.into())
+    );
+    let doubt = result["frames"][0]["doubt"].to_string();
+    assert!(
+        doubt.contains("it stands within the tolerances of --accuracy standard, but not in exact arithmetic"),
+        "{doubt}"
+    );
+}
+
+#[test]
 fn every_level_gives_the_same_verdicts() {
     let bench = Bench::new();
-    for level in ["standard", "proved"] {
+    for level in ["standard", "proved", "exact"] {
         assert_eq!(bench.run(&format!("check --accuracy {level} stands.json")).code, 0, "{level}");
         assert_eq!(bench.run(&format!("check --accuracy {level} falls.json")).code, 1, "{level}");
     }
     let ran = bench.run("check --accuracy best stands.json");
     assert_eq!(ran.code, 2);
-    assert!(ran.err.contains("standard, proved"), "{}", ran.err);
+    assert!(ran.err.contains("standard, proved, exact"), "{}", ran.err);
 }
 
 #[test]
