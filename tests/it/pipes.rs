@@ -78,7 +78,7 @@ fn pipes_that_are_not_the_one_input_are_refused() {
 #[test]
 fn the_time_limit_ends_a_pipe_that_is_the_one_input() {
     let folder = folder();
-    for arguments in [
+    let commands = [
         "check pipe",
         "render pipe -o a.svg",
         "report pipe -o r.html",
@@ -86,12 +86,20 @@ fn the_time_limit_ends_a_pipe_that_is_the_one_input() {
         "export pipe",
         "verify pipe",
         "import pipe --format svg",
-    ] {
-        let (code, messages, time) = run(folder.path(), &format!("{arguments} --time-limit 0.3"));
-        assert!(code == Some(2) && messages.contains("the time limit of 300ms was reached"), "{arguments}: {messages}");
-        let grace = if cfg!(debug_assertions) { 20.0 } else { 0.8 };
-        assert!(time.as_secs_f64() < grace, "{arguments}: {time:?}");
-    }
+    ];
+    // All of them wait at the same time.
+    std::thread::scope(|scope| {
+        for arguments in commands {
+            let folder = folder.path();
+            scope.spawn(move || {
+                let (code, messages, time) = run(folder, &format!("{arguments} --time-limit 0.3"));
+                let is_late = code == Some(2) && messages.contains("the time limit of 300ms was reached");
+                assert!(is_late, "{arguments}: {messages}");
+                let grace = if cfg!(debug_assertions) { 20.0 } else { 0.8 };
+                assert!(time.as_secs_f64() < grace, "{arguments}: {time:?}");
+            });
+        }
+    });
 }
 
 /// What lays out a figure of very many panels does not ask for the time.

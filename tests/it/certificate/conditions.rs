@@ -32,7 +32,7 @@ fn structure(random: &mut Random, number: usize) -> Value {
 fn each_condition_of_a_frame_that_stands_is_proved_by_both_checkers() {
     let mut random = Random::new(6217);
     let (mut texts, mut rust, mut conditions) = (Vec::new(), Vec::new(), 0);
-    for number in 0..12 {
+    for number in 0..6 {
         let file = structure(&mut random, number);
         let certificate = certificate(&scene(&file), &Options::default());
         let checked = certificate.check().expect("a structure");
@@ -55,7 +55,7 @@ fn each_condition_of_a_frame_that_stands_is_proved_by_both_checkers() {
             rust.push(proved(&one.check().expect("a structure")));
         }
     }
-    assert!(conditions > 150, "{conditions}");
+    assert!(conditions > 75, "{conditions}");
     let Some(pages) = by_python(&texts) else { return };
     for (rust, page) in rust.iter().zip(&pages) {
         assert_eq!(*rust, proved_by_python(page), "{page:#?}");
