@@ -15,6 +15,7 @@ from ._result import Frame, Result, Results
 from ._scene import Scene
 from ._session import Session
 from ._table import Record, Table
+from ._vary import Variation, vary
 
 
 def figure_kinds() -> dict[str, str]:
@@ -37,10 +38,12 @@ __all__ = [
     "SceneError",
     "Session",
     "Table",
+    "Variation",
     "__version__",
     "check",
     "check_many",
     "figure_kinds",
     "schema",
     "themes",
+    "vary",
 ]

@@ -19,6 +19,7 @@ __all__ = [
     "sketch",
     "summary",
     "themes",
+    "vary",
 ]
 
 __version__: str
@@ -88,3 +89,11 @@ def schema() -> str: ...
 def sketch(text: str, request: str, ending: str) -> bytes: ...
 def summary(analyses: Sequence[Analysis | None]) -> Table: ...
 def themes() -> list[str]: ...
+def vary(
+    name: str,
+    text: str | None,
+    numbers: Sequence[str],
+    curve: str | None,
+    digits: int,
+    options: Options,
+) -> tuple[str, str]: ...

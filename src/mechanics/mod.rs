@@ -17,6 +17,8 @@ pub mod wedge;
 
 pub mod analysis;
 
+pub mod vary;
+
 pub mod session;
 
 pub mod batch;

@@ -16,3 +16,6 @@ pub mod report;
 
 #[cfg(feature = "snapshot")]
 pub mod snapshot;
+
+#[cfg(feature = "cli")]
+pub(crate) mod vary;

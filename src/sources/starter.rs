@@ -396,50 +396,69 @@ fn jamb_block(side: &str, course: usize) -> String {
 pub struct Arch {
     /// The number of voussoirs, at least 2.
     pub voussoirs: usize,
-    /// Clear width, in metres.
+    /// Clear width between the springings, in metres; from an angle of 180° on, twice the inner radius.
     pub span: f64,
     /// The thickness from the inner to the outer face, in metres.
     pub thickness: f64,
+    /// The angle of embrace: the angle at the centre between the springings, from 20 to 300 degrees.
+    pub angle: f64,
     /// Friction coefficient.
     pub friction: f64,
 }
 
 impl Default for Arch {
-    /// Returns an arch of 13 voussoirs with a clear width of 4 m, 0.4 m thick, with a friction coefficient of 0.7. It
-    /// stands.
+    /// Returns a semicircular arch of 13 voussoirs with a clear width of 4 m, 0.4 m thick, with a friction coefficient of
+    /// 0.7. It stands.
     fn default() -> Arch {
-        Arch { voussoirs: 13, span: 4.0, thickness: 0.4, friction: 0.7 }
+        Arch { voussoirs: 13, span: 4.0, thickness: 0.4, angle: 180.0, friction: 0.7 }
     }
 }
 
 impl Arch {
     /// Returns a scene file with the arch on the ground, of stone with 2500 kg/m³.
     pub fn scene(&self) -> SceneFile {
-        let (inner, outer) = (0.5 * self.span, 0.5 * self.span + self.thickness);
+        let half = 0.5 * self.angle.to_radians();
+        let inner = 0.5 * self.span / if self.angle < 180.0 { libm::sin(half) } else { 1.0 };
+        let outer = inner + self.thickness;
         let least = self.thickness.min(self.span);
-        let joint = |number: usize, radius: f64| -> Pair {
-            // Both springings are at the height 0 exactly, without rounding errors.
-            let angle = match number {
-                0 => return [rounded(-radius, least), 0.0],
-                n if n == self.voussoirs => return [rounded(radius, least), 0.0],
-                n => core::f64::consts::PI * (1.0 - n as f64 / self.voussoirs as f64),
-            };
-            let (sin, cos) = libm::sincos(angle);
-            [rounded(radius * cos, least), rounded(radius * sin, least)]
+        let is_semicircle = self.angle == 180.0;
+        // The directions from the centre, from the left springing to the right one.
+        let direction = |number: usize| match number {
+            // Both springings of a semicircle are at the height 0 exactly, without rounding errors.
+            0 if is_semicircle => [-1.0, 0.0],
+            n if is_semicircle && n == self.voussoirs => [1.0, 0.0],
+            n => {
+                let from_top = half * (1.0 - 2.0 * n as f64 / self.voussoirs as f64);
+                [-libm::sin(from_top), libm::cos(from_top)]
+            }
         };
+        let round = |pair: Pair| pair.map(|x| rounded(x, least));
+        let joint = |number: usize, radius: f64| round(direction(number).map(|x| radius * x));
         let voussoir = |i: usize| {
             let corners = vec![joint(i, inner), joint(i, outer), joint(i + 1, outer), joint(i + 1, inner)];
             block((i + 1).to_string(), corners)
         };
         let aside = rounded(outer + self.thickness, least);
+        // Below a springing that is not level, a stone of the ground continues the arch.
+        let below = |number: usize, to: f64| {
+            let ([x, y], thick) = (direction(number), to * self.thickness);
+            let beyond = |radius: f64| round([radius * x - thick * y, radius * y + thick * x]);
+            let polygon = vec![joint(number, inner), joint(number, outer), beyond(outer), beyond(inner)];
+            GroundEntry { polygon: Some(polygon), ..GroundEntry::default() }
+        };
+        let ground = match is_semicircle {
+            true => vec![floor(-aside, aside, self.thickness)],
+            false => vec![below(0, 1.0), below(self.voussoirs, -1.0)],
+        };
+        let embrace = if is_semicircle { String::new() } else { format!(", {}° at its centre", self.angle) };
         SceneFile {
             title: Some(format!(
-                "A round arch of {} voussoirs over {} m, {} m thick",
+                "A round arch of {} voussoirs over {} m, {} m thick{embrace}",
                 self.voussoirs, self.span, self.thickness
             )),
             friction: Some(self.friction),
             density: Some(STONE_DENSITY),
-            ground: vec![floor(-aside, aside, self.thickness)],
+            ground,
             blocks: (0..self.voussoirs).map(voussoir).collect(),
             ..SceneFile::default()
         }

@@ -86,6 +86,8 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
             "products/snapshot/ci.rs",
             "sources/import/",
             "products/report/book.rs",
+            "products/vary/mod.rs",
+            "entry/cli/vary.rs",
         ],
     ),
     ("toml", &["read/toml.rs"]),

@@ -16,6 +16,7 @@ mod render;
 mod safety;
 mod silent;
 mod units;
+mod vary;
 mod words;
 
 use std::fs;

@@ -41,6 +41,7 @@ mod snapshot;
 mod source;
 mod table;
 mod terminal;
+pub(super) mod vary;
 mod verify;
 mod watch;
 mod watchdog;
@@ -105,6 +106,7 @@ commands! {
     Schema(print::Schema),
     New(new::New),
     Plan(plan::Plan),
+    Vary(Box<vary::Vary>),
     Import(import::Import),
     Export(export::Export),
     #[command(name = "mdbook")]

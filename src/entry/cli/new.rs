@@ -1,9 +1,10 @@
 //! `drystone new`: writes an example, or a structure with given dimensions, as a scene to start from.
 
+use std::any::TypeId;
 use std::path::PathBuf;
 
 use clap::builder::RangedU64ValueParser;
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Command, FromArgMatches, Subcommand, ValueEnum};
 
 use crate::entry::cli::destination;
 use crate::entry::cli::error::Ended;
@@ -49,12 +50,15 @@ enum Structure {
         /// How many voussoirs
         #[arg(long, value_name = "N", default_value = "13", value_parser = count().range(2..=1000))]
         voussoirs: usize,
-        /// Clear width in metres
+        /// Clear width in metres; from an angle of 180 degrees on, twice the inner radius
         #[arg(long, value_name = "M", default_value = "4", value_parser = length)]
         span: f64,
         /// Thickness from the inner to the outer face in metres
         #[arg(long, value_name = "M", default_value = "0.4", value_parser = length)]
         thickness: f64,
+        /// Angle of embrace: between the springings, at the centre, in degrees
+        #[arg(long, value_name = "DEG", default_value = "180", value_parser = |typed: &str| angle(typed, [20.0, 300.0]))]
+        angle: f64,
         #[command(flatten)]
         friction: Friction,
     },
@@ -121,7 +125,7 @@ enum Structure {
         #[arg(long, value_name = "M", default_value = "0.06", value_parser = length)]
         thickness: f64,
         /// Angle between the ladder and the floor in degrees
-        #[arg(long, value_name = "DEG", default_value = "65", value_parser = |typed: &str| angle(typed, 5.0))]
+        #[arg(long, value_name = "DEG", default_value = "65", value_parser = |typed: &str| angle(typed, [5.0, 85.0]))]
         angle: f64,
         /// Friction coefficient at the wall
         #[arg(long, value_name = "MU", default_value = "0", value_parser = at_least_zero)]
@@ -132,7 +136,7 @@ enum Structure {
     /// A block on an inclined plane
     Incline {
         /// Angle of the plane to the horizontal in degrees
-        #[arg(long, value_name = "DEG", default_value = "20", value_parser = |typed: &str| angle(typed, 0.0))]
+        #[arg(long, value_name = "DEG", default_value = "20", value_parser = |typed: &str| angle(typed, [0.0, 85.0]))]
         angle: f64,
         /// Width of the block along the plane in metres
         #[arg(long, value_name = "M", default_value = "1", value_parser = length)]
@@ -167,10 +171,10 @@ fn length(typed: &str) -> Result<f64, String> {
     }
 }
 
-fn angle(typed: &str, least: f64) -> Result<f64, String> {
+fn angle(typed: &str, [least, most]: [f64; 2]) -> Result<f64, String> {
     match typed.parse::<f64>() {
-        Ok(degrees) if (least..=85.0).contains(&degrees) => Ok(degrees),
-        _ => Err(format!("it must be an angle from {least} to 85 degrees")),
+        Ok(degrees) if (least..=most).contains(&degrees) => Ok(degrees),
+        _ => Err(format!("it must be an angle from {least} to {most} degrees")),
     }
 }
 
@@ -184,8 +188,8 @@ fn at_least_zero(typed: &str) -> Result<f64, String> {
 impl Structure {
     fn text(&self) -> String {
         let scene = match *self {
-            Structure::Arch { voussoirs, span, thickness, friction: Friction { friction } } => {
-                Arch { voussoirs, span, thickness, friction }.scene()
+            Structure::Arch { voussoirs, span, thickness, angle, friction: Friction { friction } } => {
+                Arch { voussoirs, span, thickness, angle, friction }.scene()
             }
             Structure::Wall { courses, bricks, length, height, friction: Friction { friction } } => {
                 Wall { courses, bricks, length, height, friction }.scene()
@@ -208,6 +212,39 @@ impl Structure {
         };
         scene.to_json()
     }
+}
+
+/// Returns the dimensions of a structure: their names, and which are whole numbers. `None` if there is no such structure.
+pub(crate) fn dimensions(structure: &str) -> Option<Vec<(String, bool)>> {
+    let command = command();
+    let whole = |argument: &clap::Arg| argument.get_value_parser().type_id() == TypeId::of::<usize>();
+    let arguments = command.find_subcommand(structure)?.get_arguments();
+    let named = arguments.filter_map(|argument| Some((argument.get_long()?.replace('-', "_"), whole(argument))));
+    Some(named.filter(|(name, _)| name != "help").collect())
+}
+
+/// Returns the number that a dimension of a structure has if it is not given.
+pub(crate) fn default_of(structure: &str, dimension: &str) -> Option<f64> {
+    let command = command();
+    let mut arguments = command.find_subcommand(structure)?.get_arguments();
+    let own = arguments.find(|argument| argument.get_long().is_some_and(|long| long.replace('-', "_") == dimension))?;
+    own.get_default_values().first()?.to_str()?.parse().ok()
+}
+
+/// Returns the scene of a structure with these dimensions, or what is wrong with them.
+pub(crate) fn structure(name: &str, dimensions: &[(String, String)]) -> Result<String, String> {
+    let given = dimensions.iter().map(|(dimension, value)| format!("--{}={value}", dimension.replace('_', "-")));
+    let words = [name.to_owned()].into_iter().chain(given);
+    let matches = command().try_get_matches_from(words).and_then(|matches| Structure::from_arg_matches(&matches));
+    let structure = matches.map_err(|error| {
+        let text = error.to_string();
+        text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned()
+    })?;
+    Ok(structure.text())
+}
+
+fn command() -> Command {
+    Structure::augment_subcommands(Command::new("new").no_binary_name(true))
 }
 
 impl New {

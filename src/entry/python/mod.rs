@@ -18,12 +18,15 @@ use pyo3::prelude::*;
 use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
 use crate::entry::cli;
-use crate::entry::request::{CheckArgs, Refused, read_json};
+use crate::entry::cli::error::CliError;
+use crate::entry::cli::vary::Varied;
+use crate::entry::request::{CheckArgs, Refused, in_json, read_json};
 use crate::mechanics::analysis::{self, Verdict};
 use crate::mechanics::certificate::Certificate;
 use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{Scene, SceneError, isolate};
 use crate::pictures::drawing::Theme;
+use crate::pictures::output::svg;
 use crate::products::result::{self, Layout, Timing};
 use crate::products::snapshot::assertion;
 
@@ -205,6 +208,32 @@ fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
     py.detach(|| options.analysis(text)).map(Analysis::new).map_err(|why| options.raised(py, why))
 }
 
+/// Finds for which values of one number or of two a structure stands: a scene, given as JSON text, or a structure by its name.
+/// Returns the data as JSON, and the picture as SVG.
+#[pyfunction]
+fn vary(
+    py: Python<'_>,
+    name: &str,
+    text: Option<String>,
+    numbers: Vec<String>,
+    curve: Option<&str>,
+    digits: u32,
+    options: &Options,
+) -> PyResult<(String, String)> {
+    let bytes = || text.map(String::into_bytes).ok_or_else(|| format!("there is no structure {name}").into());
+    let level = &options.request.what.level;
+    let found = py.detach(|| {
+        let varied = Varied::read(name, bytes, &numbers, curve, &level.started())?;
+        let answer = varied.answer(digits.clamp(2, 9), || ());
+        let svg = svg::write(&varied.drawing(&answer, &Theme::default(), None));
+        Ok((varied.told(&answer).0.to_string(), svg))
+    });
+    found.map_err(|why| match why {
+        CliError::Scene { problems, .. } => refused(py, problems, options.request.located),
+        other => fault(py, &in_json(&other.message())),
+    })
+}
+
 /// Analyses scenes on several threads. Returns an analysis or an exception for each scene, in the order of the scenes.
 /// Repeatedly calls `progress` with the number of finished scenes. If `progress` raises an exception or the user
 /// interrupts Python, the work ends with this exception.
@@ -335,7 +364,7 @@ mod _drystone {
     use crate::entry::python::table::{Table, summary};
     #[pymodule_export]
     use crate::entry::python::{
-        Analysis, Options, check, check_many, compas, formatted, kinds, read, run, schema, themes,
+        Analysis, Options, check, check_many, compas, formatted, kinds, read, run, schema, themes, vary,
     };
 
     /// The version of drystone.

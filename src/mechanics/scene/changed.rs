@@ -23,17 +23,7 @@ impl Scene {
             return from_bytes(lines_before, bytes, tolerance, &unchanged).map(|(scene, _)| (scene, bytes.into()));
         }
         let (result, paths) = read(lines_before, bytes, tolerance, settings);
-        let (mut scene, file) = result.map_err(|mut problems| {
-            for problem in &mut problems.list {
-                let found = paths.iter().position(|path| is_within(&problem.path, path));
-                if let Some(setting) = found.and_then(|number| settings.get(number)) {
-                    // The value does not stand in the file, so a line of the file would not show it.
-                    (problem.line, problem.column, problem.span) = (0, 0, None);
-                    problem.message = format!("--set {setting}: {}", problem.message);
-                }
-            }
-            problems
-        })?;
+        let (mut scene, file) = result.map_err(|problems| of_settings(problems, settings, &paths, "--set "))?;
         scene.set = settings.iter().map(ToString::to_string).collect();
         for (number, (setting, path)) in settings.iter().zip(paths).enumerate() {
             let others = [&settings[..number], &settings[number + 1..]].concat();
@@ -51,11 +41,34 @@ impl Scene {
         Ok((scene, file.to_json().into_bytes().into()))
     }
 
+    /// Reads and checks the bytes of a scene file with other values in place of some. Does not note which of them change
+    /// nothing.
+    pub(crate) fn from_slice_changed(
+        bytes: &[u8],
+        tolerance: Option<f64>,
+        settings: &[Setting],
+    ) -> Result<Scene, SceneError> {
+        let (result, paths) = read(0, bytes, tolerance, settings);
+        result.map(|(scene, _)| scene).map_err(|problems| of_settings(problems, settings, &paths, ""))
+    }
+
     /// Returns all that the verdict depends on, as text to be compared.
     fn structure(&self) -> String {
         let (title, notes, lines, set) = (String::new(), Vec::new(), Lines::default(), Vec::new());
         format!("{:?}", Scene { title, notes, lines, set, ..self.clone() })
     }
+}
+
+/// Says which setting a problem is about. Its value does not stand in the file, so a line of the file would not show it.
+fn of_settings(mut problems: SceneError, settings: &[Setting], paths: &Paths, option: &str) -> SceneError {
+    for problem in &mut problems.list {
+        let found = paths.iter().position(|path| is_within(&problem.path, path));
+        if let Some(setting) = found.and_then(|number| settings.get(number)) {
+            (problem.line, problem.column, problem.span) = (0, 0, None);
+            problem.message = format!("{option}{setting}: {}", problem.message);
+        }
+    }
+    problems
 }
 
 /// Reads a scene with these settings. Also returns the paths of their values.
@@ -99,6 +112,15 @@ mod tests {
         let again = Scene::from_json(&text).expect("a scene");
         assert_eq!(again.structure(), scene.structure());
         assert_eq!(again.title, scene.title);
+    }
+
+    #[test]
+    fn a_body_moves_by_one_coordinate_of_its_position() {
+        let (scene, _) = set(&["blocks[0].at[0]=0.5", "blocks[0].at[1]=2"]).expect("a scene");
+        let least = scene.blocks[0].body.polygon.bounds().min;
+        assert_eq!((least.x, least.y), (0.5, 2.0));
+        // A load without a place acts at the centre of gravity, not at the origin.
+        assert!(set(&["loads[0].at[0]=0.5"]).is_err() && set(&["blocks[0].at[2]=1"]).is_err());
     }
 
     #[test]

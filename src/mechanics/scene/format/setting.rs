@@ -159,9 +159,18 @@ fn put<'t>(
             let entries = keys.clone().filter_map(|at| Some((at, after(name, &tree.entries[at].name)?)));
             let found = entries.min_by_key(|(_, rest)| rest.len());
             let (at, rest) = found.unwrap_or_else(|| {
-                let (key, rest) = name.split_once('.').unwrap_or((name, ""));
+                // A body without a position is at the origin.
+                let is_body = path.0.len() == 2
+                    && ["blocks", "ground"].iter().any(|list| path.0[0] == Segment::Key((*list).into()));
+                let is_position = is_body && matches!(name, "at[0]" | "at[1]");
+                let (key, rest) = match is_position {
+                    true => name.split_at(2),
+                    false => name.split_once('.').unwrap_or((name, "")),
+                };
+                let none = Node { range: home..home, kind: NodeKind::Object(Object(0..0)) };
+                let origin = is_position.then(|| tree.add("[0, 0]", home).ok()).flatten();
+                let value = origin.unwrap_or(none);
                 let at = tree.entries.len();
-                let value = Node { range: home..home, kind: NodeKind::Object(Object(0..0)) };
                 tree.entries.push(Entry { name: key.to_owned().into(), name_range: home..home, value });
                 tree.entries.extend_from_within(keys.clone());
                 keys = at..tree.entries.len();
