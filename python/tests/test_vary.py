@@ -24,7 +24,7 @@ def test_a_scene_of_two_numbers_has_a_region():
     scene.block("a", [(1, 0), (3, 0), (3, 2), (1, 2)], weight=10).load("a", (1, 0), at=(2, 2))
     found = ds.vary(scene, {"loads[0].force[0]": (0, 10), "friction": (0.05, 1.2)})
     [ring] = found.region
-    # It slides beyond μ times its weight, and turns beyond half of its weight.
+    # It slides if the force is larger than μ times the weight, and turns over if it is larger than half of the weight.
     assert max(x for x, _ in ring) == pytest.approx(5, abs=0.02)
     assert found.data["ranges"][1]["given"] == 0.5
 

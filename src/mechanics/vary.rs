@@ -84,10 +84,11 @@ impl Range {
 
     /// True if each value has a column of its own in a map.
     fn has_columns(&self) -> bool {
-        self.is_whole && self.steps() < COLUMNS
+        self.is_whole && self.steps() < MAX_COLUMNS
     }
 
-    /// Returns the least and the largest value that a map shows: half a step beyond whole numbers.
+    /// Returns the least and the largest value on the axis of a map. For whole numbers the axis is half a step longer at each
+    /// end.
     pub fn shown(&self) -> (f64, f64) {
         let beyond = if self.has_columns() { 0.5 } else { 0.0 };
         (self.from - beyond, self.to + beyond)
@@ -126,7 +127,7 @@ impl Range {
 /// unit of the last of `digits` significant digits. Returns all samples, the least value first.
 pub fn scan(range: &Range, count: usize, digits: u32, of: impl Fn(&[f64]) -> Found + Sync) -> Vec<Sample> {
     let mut samples = all(range.values(count).into_iter().map(|value| vec![value]).collect(), &of);
-    // A distance of 10³⁰⁸ is halved to the last digit in about a thousand steps; far fewer are needed in decimals.
+    // Each round halves the distances. Ten digits need some forty rounds.
     for _ in 0..200 {
         let pairs = samples.windows(2).filter(|pair| pair[0].found.state != pair[1].found.state);
         let next: Vec<f64> = pairs.filter_map(|pair| range.between(pair[0].at[0], pair[1].at[0], digits)).collect();
@@ -159,8 +160,8 @@ pub fn intervals(samples: &[Sample]) -> Vec<Interval> {
 /// A vertex of the grid of a map: its column and its row, from 0.
 type Vertex = [usize; 2];
 
-/// An edge of the grid: its first vertex, and its direction: 0 along a row, 1 along a column. A border of the range has
-/// further edges outside of it.
+/// An edge of the grid: the column and the row of its first vertex, and its direction: 0 to the next column, 1 to the next
+/// row. Columns and rows −1 and one beyond the last are outside of the map.
 type Edge = (isize, isize, usize);
 
 /// Which pairs of two numbers hold.
@@ -216,8 +217,8 @@ impl Block {
 /// The number of cells of a map along a range, and of each of the blocks that it begins with.
 const CELLS: usize = 64;
 const FIRST: usize = 4;
-/// So many whole numbers have a column each.
-const COLUMNS: usize = 32;
+/// A range of at most this many whole numbers has a column of the map for each.
+const MAX_COLUMNS: usize = 32;
 /// How often the distance of two vertices that differ is halved.
 const HALVINGS: usize = 6;
 

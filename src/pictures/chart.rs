@@ -134,7 +134,7 @@ pub fn power_of_ten(exponent: i32) -> String {
 
 /// Returns the smallest number of the form 1·10ⁿ, 2·10ⁿ or 5·10ⁿ, with an integer n, that is at least `value`. `value`
 /// must be positive.
-fn round_step(value: f64) -> f64 {
+pub(crate) fn round_step(value: f64) -> f64 {
     let power = libm::exp10(libm::floor(libm::log10(value)));
     let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| s * power >= value * (1.0 - 1e-9));
     step.unwrap_or(10.0) * power

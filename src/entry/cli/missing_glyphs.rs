@@ -7,6 +7,7 @@ use crate::entry::cli::page::Page;
 use crate::entry::cli::source::Source;
 use crate::entry::cli::terminal::Terminal;
 use crate::mechanics::scene::Scene;
+use crate::pictures::drawing::Item;
 use crate::pictures::output::fonts::Fonts;
 use crate::text::and_more;
 
@@ -61,6 +62,15 @@ pub(crate) fn legible(scene: &Scene, fonts: &Fonts) -> Scene {
     scene.robots.iter_mut().for_each(|r| spell(&mut r.id));
     scene.load_ids.iter_mut().flatten().for_each(spell);
     scene
+}
+
+/// Replaces the characters of a drawing that no font has by code points.
+pub(crate) fn spell(item: &mut Item, fonts: &Fonts) {
+    match item {
+        Item::Text(text) => text.words = fonts.spelled(&text.words).into_owned(),
+        Item::Group(group) => group.items.iter_mut().for_each(|item| spell(item, fonts)),
+        Item::Path(_) => {}
+    }
 }
 
 /// Returns a letter or digit with its code point, such as `א (U+05D0)`. For any other character, returns only the code

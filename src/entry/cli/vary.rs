@@ -9,6 +9,7 @@ use crate::clock::Instant;
 use crate::entry::cli::destination;
 use crate::entry::cli::error::{CliError, Ended};
 use crate::entry::cli::exit_status::ExitStatus;
+use crate::entry::cli::missing_glyphs;
 use crate::entry::cli::new;
 use crate::entry::cli::picture::{Format, Picture};
 use crate::entry::cli::progress::Progress;
@@ -17,6 +18,7 @@ use crate::entry::cli::style_args::StyleArgs;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::request::AnalysisArgs;
 use crate::mechanics::analysis::{Accuracy, Analysis, MarginKind, MarginKinds, Options, Verdict, verdicts};
+use crate::mechanics::scene::format::Expectation;
 use crate::mechanics::scene::{Scene, SceneError, Setting};
 use crate::mechanics::vary::{Found, Map, Range, Sample, State, scan};
 use crate::pictures::drawing::{Drawing, Theme};
@@ -28,7 +30,7 @@ use crate::read::file::ending;
 use crate::text::Word;
 
 /// The number of values of one number that are examined before the ends are found.
-const VALUES: usize = 33;
+const FIRST_VALUES: usize = 33;
 
 /// Find for which values of one number, or of two, a structure stands
 ///
@@ -181,10 +183,11 @@ impl Varied {
             goal: goal.as_ref().map(written),
             ordinate: curve.map(str::to_owned),
             given: ranges.iter().map(given).collect(),
-            is_interval: goal.is_none() && ranges.len() == 1 && !of_structure[0] && is_linear(&ranges[0].name)
-                || goal.is_none() && ranges.len() == 1 && ranges[0].name == "friction",
+            is_interval: goal.is_none()
+                && ranges.len() == 1
+                && (ranges[0].name == "friction" || !of_structure[0] && is_linear(&ranges[0].name)),
         };
-        let varied =
+        let mut varied =
             Varied { base, ranges, is_dimension: of_structure, fixed, goal, level: level.clone(), options, question };
         // What gives a scene neither at the ends nor in the middle is refused at once: most often a name that is not there.
         let ways = [0.0, 1.0, 0.5].map(|share| {
@@ -194,6 +197,11 @@ impl Varied {
             };
             varied.scene(&varied.ranges.iter().map(value).collect::<Vec<f64>>())
         });
+        // Where a step is meant to fall, it holds outside of an interval.
+        let is_meant = |scene: &Scene| scene.frames.iter().any(|frame| frame.expected == Some(Expectation::Unstable));
+        if ways.iter().flatten().any(is_meant) {
+            varied.question.is_interval = false;
+        }
         match ways {
             [Err(why), Err(_), Err(_)] => Err(why),
             _ => Ok(varied),
@@ -321,14 +329,13 @@ fn found_at<'t>(tree: &'t Value, path: &str) -> Option<&'t Value> {
     }
 }
 
-/// True if the loads or the friction limits are linear in a number of the scene, while its geometry stays: then the values at
-/// which it stands are an interval.
+/// True if the loads or the limits of the forces are linear in a number of the scene, and the number does not change its
+/// geometry. Forces between two sets of forces that balance then balance too, so the scene stands at an interval of values.
 fn is_linear(name: &str) -> bool {
     let last =
         name.rsplit(['.', '[']).find(|part| part.parse::<usize>().is_err() && !part.ends_with(']')).unwrap_or(name);
     matches!(last, "friction" | "kernel" | "load_factor" | "weight" | "mass" | "force" | "torque")
         || name.starts_with("loads") && last == "at"
-        || name.starts_with("gravity")
 }
 
 /// Returns the first problem of a scene, without its place in the file.
@@ -357,7 +364,7 @@ impl Varied {
             step();
             found
         };
-        let count = if self.question.ordinate.is_some() { 2 * VALUES } else { VALUES };
+        let count = if self.question.ordinate.is_some() { 2 * FIRST_VALUES } else { FIRST_VALUES };
         match &self.ranges[..] {
             [x, y] => Answer::Two(Box::new(Map::new([x.clone(), y.clone()], of))),
             ranges => Answer::One(scan(&ranges[0], count, digits, |at| of(at, true))),
@@ -413,7 +420,10 @@ impl Vary {
         for (path, form) in self.output.iter().zip(forms) {
             let bytes = match (form, ending(path).as_str()) {
                 (Some(format), _) => {
-                    let drawing = varied.drawing(&answer, &theme, self.picture.page());
+                    let mut drawing = varied.drawing(&answer, &theme, self.picture.page());
+                    if self.picture.draws_words(format) {
+                        drawing.items.iter_mut().for_each(|item| missing_glyphs::spell(item, &fonts));
+                    }
                     self.picture.bytes(drawing, format, &fonts)?
                 }
                 (None, "csv") => vary::csv(&varied.question, &varied.ranges, samples).into_bytes(),

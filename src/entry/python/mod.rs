@@ -208,8 +208,8 @@ fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
     py.detach(|| options.analysis(text)).map(Analysis::new).map_err(|why| options.raised(py, why))
 }
 
-/// Finds for which values of one number or of two a structure stands: a scene, given as JSON text, or a structure by its name.
-/// Returns the data as JSON, and the picture as SVG.
+/// Finds the values of one or two numbers at which a structure stands. `text` is a scene as JSON; without it, `name` is a
+/// structure of `drystone new`. Returns the data as JSON, and the picture as SVG.
 #[pyfunction]
 fn vary(
     py: Python<'_>,

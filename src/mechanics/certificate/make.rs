@@ -70,8 +70,9 @@ impl Certificate {
         certificate
     }
 
-    /// Proves the verdict of each frame in its other conditions, one for all frames that share their results. A frame has a
-    /// notice if the proof in some condition is not exact. `keep` has the number of the frame, from 0, and the proofs.
+    /// Proves the verdict of each frame in all conditions except the governing one. Frames that share their results are proved
+    /// once. If the proof in a condition is not exact, the frame gets a notice. `keep` receives the number of the frame, from
+    /// 0, and the proofs.
     fn in_each_condition(&self, analysis: &mut Analysis, mut keep: impl FnMut(usize, Vec<LimitForm>)) {
         let first: BTreeSet<usize> = analysis.of_each(|number| number).into_iter().collect();
         let mut faults = BTreeMap::new();
@@ -89,8 +90,8 @@ impl Certificate {
         });
     }
 
-    /// If a frame stands, proves its verdict in every condition except the governing one, which the entry of the frame
-    /// proves. Also returns what the first of these proofs that is not exact misses.
+    /// If a frame stands, proves its verdict in every condition except the governing one, whose proof is the entry of the frame.
+    /// Also returns the fault of the first proof that is not exact.
     fn conditions_of(&self, analysis: &Analysis, number: usize) -> (Vec<LimitForm>, Option<String>) {
         let (given, found) = (analysis.given(), &analysis.frames[number]);
         if !given.has_conditions() || found.verdict != Verdict::Stable {

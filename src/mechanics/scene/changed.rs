@@ -59,7 +59,7 @@ impl Scene {
     }
 }
 
-/// Says which setting a problem is about. Its value does not stand in the file, so a line of the file would not show it.
+/// Adds to each problem the setting that causes it, and removes the line: the value of a setting is not in the file.
 fn of_settings(mut problems: SceneError, settings: &[Setting], paths: &Paths, option: &str) -> SceneError {
     for problem in &mut problems.list {
         let found = paths.iter().position(|path| is_within(&problem.path, path));

@@ -2,6 +2,7 @@
 
 use super::{Question, axis_name, short};
 use crate::mechanics::vary::{Map, Range, Sample, State, intervals};
+use crate::pictures::chart::round_step;
 use crate::pictures::drawing::{
     Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
 };
@@ -97,7 +98,7 @@ impl<'a> Plane<'a> {
         }
         let below = at.moved(width / 2.0, height + tick + 2.5 * size);
         // The name of the upright axis stands above it, so that nobody turns the head.
-        let above = PagePoint::new(MARGIN, at.y - 0.8 * size);
+        let above = PagePoint::new(MARGIN, at.y - 1.1 * size);
         self.items.push(Item::Group(
             frame
                 .with(Text::new(below, names[0], Face::Sans, size, theme.ink).anchored(Anchor::Middle))
@@ -141,9 +142,7 @@ impl<'a> Plane<'a> {
 /// Returns round numbers between two values, at most about `room`, and their distance: 1, 2 or 5 times a power of ten.
 fn ticks(from: f64, to: f64, room: f64, is_whole: bool) -> (f64, Vec<f64>) {
     let least = (to - from) / room.max(1.0);
-    let tens = libm::exp10(libm::floor(libm::log10(least)));
-    let step = [1.0, 2.0, 5.0, 10.0].map(|times| times * tens).into_iter().find(|step| *step >= least * (1.0 - 1e-9));
-    let step = step.unwrap_or(10.0 * tens).max(if is_whole { 1.0 } else { 0.0 });
+    let step = round_step(least).max(if is_whole { 1.0 } else { 0.0 });
     let (first, last) = (libm::ceil(from / step - 1e-9) as i64, libm::floor(to / step + 1e-9) as i64);
     (step, (first..=last).map(|number| number as f64 * step).collect())
 }
@@ -220,19 +219,35 @@ pub(crate) fn map(question: &Question, map: &Map, theme: &Theme, width: Option<f
         let line = Path::stroked(border, Stroke::new(theme.ink, 1.6));
         plane.items.push(Item::Group(Group::with_class("border").with(line)));
     }
-    // A name in the middle of each region, and of each way to fall.
+    // A name in the middle of each region, and of each way to fall, where it fits.
+    let mut taken: Vec<[PagePoint; 2]> = Vec::new();
     for (state, name, at, room) in names(question, map) {
         let room = 2.0 * room * plane.rect.width.min(plane.rect.height) - plane.size;
         let lines = text::wrap(&name, Face::Sans, plane.size, room.max(5.0 * plane.size));
         let wide = lines.iter().map(|line| text::width(line, Face::Sans, plane.size)).fold(0.0, f64::max);
-        let middle = plane.place(at);
         let (half, high) = (0.5 * wide + 3.0, 0.65 * plane.size * lines.len() as f64 + 3.0);
         let PageRect { at: corner, width, height } = plane.rect;
+        let middle = plane.place(at);
         let middle = PagePoint::new(
             middle.x.clamp(corner.x + half, (corner.x + width - half).max(corner.x + half)),
-            middle.y.clamp(corner.y + high, corner.y + height - high),
+            middle.y.clamp(corner.y + high, (corner.y + height - high).max(corner.y + high)),
         );
-        plane.words(middle, &lines, letters(theme, state), Face::Sans);
+        let [from, to] = [middle.moved(-half, -high), middle.moved(half, high)];
+        // No pair of another region lies below it, and no other name.
+        let covers = |pair: &[f64]| {
+            let at = plane.place([pair[0], pair[1]]);
+            from.x <= at.x && at.x <= to.x && from.y <= at.y && at.y <= to.y
+        };
+        let is_other = |sample: &Sample| {
+            let is_named = !sample.found.words.is_empty() && sample.found.state == State::Fails;
+            sample.found.state != state || is_named && !name.ends_with(&format!(": {}", sample.found.words))
+        };
+        let hides = map.samples.iter().any(|sample| is_other(sample) && covers(&sample.at));
+        let meets = taken.iter().any(|[a, b]| from.x < b.x && a.x < to.x && from.y < b.y && a.y < to.y);
+        if !hides && !meets {
+            taken.push([from, to]);
+            plane.words(middle, &lines, letters(theme, state), Face::Sans);
+        }
     }
     if let [Some(a), Some(b)] = question.given[..]
         && (x.from..=x.to).contains(&a)
@@ -259,8 +274,9 @@ fn runs(lines: impl Iterator<Item = [[f64; 2]; 2]>) -> Vec<Vec<[f64; 2]>> {
     runs
 }
 
-/// Returns for each region a name, its state, a pair of values well inside, and the share of the ranges around it that has the
-/// same name. Of the regions that fall, each way to fall is one.
+/// Returns a label for each region: its state, its words, a pair of values well inside, and how far it is to the next region, as
+/// a share of the ranges. The values at which the structure falls are one region for each kind of mechanism: hinges, sliding, or
+/// both.
 fn names(question: &Question, map: &Map) -> Vec<(State, String, [f64; 2], f64)> {
     let shares = |at: &[f64]| {
         let share = |axis: usize| (at[axis] - map.ranges[axis].from) / (map.ranges[axis].to - map.ranges[axis].from);

@@ -88,7 +88,7 @@ impl Question {
     pub(crate) fn json(&self, range: &Range, samples: &[Sample]) -> Value {
         let mut text = self.head(std::slice::from_ref(range));
         let list = intervals(samples).into_iter().map(|interval| {
-            json!({ "state": key(interval.state), "from": interval.from, "to": interval.to, "words": interval.words })
+            json!({ "state": state_key(interval.state), "from": interval.from, "to": interval.to, "words": interval.words })
         });
         text["is_interval"] = json!(self.is_interval);
         text["intervals"] = json!(list.collect::<Vec<_>>());
@@ -121,7 +121,7 @@ pub(crate) fn csv(question: &Question, ranges: &[Range], samples: &[Sample]) -> 
         let value =
             sample.found.value.filter(|value| value.is_finite()).map_or(String::new(), |value| value.to_string());
         let value = question.ordinate.iter().map(|_| value.clone());
-        rows.push(numbers.chain([key(sample.found.state).to_owned()]).chain(value).collect::<Vec<_>>().join(","));
+        rows.push(numbers.chain([state_key(sample.found.state).to_owned()]).chain(value).collect::<Vec<_>>().join(","));
     }
     rows.join("\n") + "\n"
 }
@@ -129,13 +129,13 @@ pub(crate) fn csv(question: &Question, ranges: &[Range], samples: &[Sample]) -> 
 fn entries(samples: &[Sample]) -> Value {
     let entry = |sample: &Sample| {
         let value = sample.found.value.filter(|value| value.is_finite());
-        json!({ "at": sample.at, "state": key(sample.found.state), "value": value })
+        json!({ "at": sample.at, "state": state_key(sample.found.state), "value": value })
     };
     json!(samples.iter().map(entry).collect::<Vec<_>>())
 }
 
 /// Returns the word of a state in JSON and CSV.
-fn key(state: State) -> &'static str {
+fn state_key(state: State) -> &'static str {
     match state {
         State::Holds => "holds",
         State::Fails => "fails",

@@ -83,7 +83,7 @@ fn compared(scene: &Scene, exact: bool, with_forces: bool) -> (Standing, Option<
     let ruled_out = (frame.verdict == Verdict::Unstable).then(|| frame.proof.excluded_force_sum());
     let (standing, error) = judged(scene, &touches, frame, with_forces);
     if let (Standing::WithinBand(verdict), true) = (standing, exact) {
-        // At the accuracy `exact`, no tolerance excuses a verdict.
+        // At the accuracy `exact`, a verdict may not be wrong within the tolerance either.
         let found = Analysis::exact(scene, &Options::default().accuracy(Accuracy::Exact)).frames[0].verdict;
         if verdict != Verdict::Undecided && found == verdict {
             return (Standing::Wrong, error, ruled_out);

@@ -106,9 +106,15 @@ fn the_map_of_a_wall_with_water_follows_its_two_closed_forms() {
     // Moved to the edge of the ground, it falls when half of its pressure lies beyond.
     let result = found(&bench, "wall.json friction=0.6 loads=[] blocks.wall.at[0]=0..4");
     assert_eq!(ends(&result)[0].1, [0.0, 3.5]);
-    // The loads are linear in the height of the force, so the interval is proved.
+    // The moment of a force is linear in its height, so the values at which the wall stands are an interval.
     let result = found(&bench, "wall.json friction=0.6 loads[0].at[1]=0..2");
     assert_eq!((ends(&result)[0].1[1], result["is_interval"].as_bool()), (1.019, Some(true)));
+    // A step that is meant to fall holds where it falls, which is no interval. Neither are values of one part of gravity.
+    fs::write(bench.path("meant.json"), wall.replace("\"drystone\": 1,", "\"drystone\": 1, \"expect\": \"unstable\","))
+        .expect("written");
+    let result = found(&bench, "meant.json friction=0.6 loads[0].at[1]=0..2");
+    assert_eq!((ends(&result)[0].0.as_str(), result["is_interval"].as_bool()), ("fails", Some(false)));
+    assert_eq!(found(&bench, "wall.json friction=0.6 gravity=[0,-9.81] gravity[0]=-5..5")["is_interval"], false);
 }
 
 #[test]
@@ -142,7 +148,7 @@ fn a_goal_is_a_number_of_the_result() {
     // No scene is no fall.
     let ran = run(&bench, "arch thickness=-1..1");
     assert!(ran.out.contains("no scene") && ran.out.contains("it must be a length in metres"), "{}", ran.out);
-    // Of a number that is not known, the goal is not reached.
+    // If the result has no number of this name, the goal is not reached.
     assert_eq!(ends(&found(&bench, "tower lean=0..0.1 nothing>=1")).len(), 1);
 }
 
@@ -159,6 +165,11 @@ fn files_have_all_samples_and_pictures_name_their_regions() {
     let json: Value = serde_json::from_str(&text("map.json")).expect("JSON");
     assert_eq!(text("map.csv").lines().count(), json["samples"].as_array().expect("a list").len() + 1);
     assert!(text("map.csv").starts_with("angle,friction,state\n"));
+    // Characters that no font has are shown as code points.
+    let named = fs::read_to_string(bench.path("stands.json")).expect("there").replace("\"lintel\"", "\"石\"");
+    fs::write(bench.path("named.json"), named).expect("written");
+    let ran = run(&bench, "named.json blocks.石.friction=0..1 kernel=0..0.5 -o named.svg --text paths");
+    assert_eq!(ran.code, 0, "{}", ran.err);
     let ran = run(&bench, "incline friction=0.2..1 angle=20 --curve tilt -o curve.svg -o curve.csv");
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(text("curve.csv").starts_with("friction,state,tilt\n") && text("curve.svg").contains("0.364"));
