@@ -32,7 +32,6 @@ def check(
     capacity: Capacity | None = None,
     for_all: str | None = None,
     sensitivity: str | None = None,
-    reach: str | None = None,
 ) -> Result:
     """Analyses a scene and returns, for each frame, the verdict with its proof, the forces, and the failures.
 
@@ -51,9 +50,6 @@ def check(
 
     ``sensitivity`` computes how one margin changes with every corner, weight, friction coefficient and load. The margin
     is "load_factor", "tilt", "horizontal_load", "friction_factor", "friction" or "kernel".
-
-    ``reach``, such as ``"load_factor=2"``, ``"tilt=10"`` or ``"horizontal_load=0.2"``, finds the least single changes
-    with which the margin reaches this value.
 
     Raises :class:`SceneError` if the scene is not valid.
 
@@ -77,7 +73,6 @@ def check(
         capacity=capacity,
         for_all=for_all,
         sensitivity=sensitivity,
-        reach=reach,
     )
     return Result(_drystone.check(scene._json(), options), scene)
 
@@ -98,7 +93,6 @@ def check_many(
     capacity: Capacity | None = None,
     for_all: str | None = None,
     sensitivity: str | None = None,
-    reach: str | None = None,
     errors: str = "raise",
     progress: Callable[[int], object] | None = None,
     threads: int = 0,
@@ -128,7 +122,6 @@ def check_many(
         capacity=capacity,
         for_all=for_all,
         sensitivity=sensitivity,
-        reach=reach,
     )
     answers = _drystone.check_many([scene._json() for scene in given], options, progress, threads)
     results: list[Result | SceneError] = []

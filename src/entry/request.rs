@@ -4,8 +4,8 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::value::{FrameChoice, SensitivityMargin, TimeLimit, length, reach, seconds};
-use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, Reach, typed_capacity};
+use super::value::{FrameChoice, SensitivityMargin, TimeLimit, length, seconds};
+use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, typed_capacity};
 use crate::mechanics::scene::{BlockId, Scene, SceneError, Setting};
 use crate::pictures::drawing::Theme;
 use crate::products::figure::{self, At, Fill, Kind, View};
@@ -82,10 +82,6 @@ request! {
         /// largest effect; --json has them all
         sensitivity: Option<SensitivityMargin> = given.word("sensitivity"),
             arg(long, value_parser = crate::text::typed_word::<SensitivityMargin>(), value_name = "MARGIN");
-        /// Find the least single changes with which a margin reaches a value: load_factor=2, tilt=10 or
-        /// horizontal_load=0.2
-        reach: Option<Reach> = given.value("reach", reach),
-            arg(long, value_parser = reach, value_name = "MARGIN=VALUE");
         capacity: CapacityArgs = CapacityArgs::read(given), command(flatten);
         /// With --placement: only these blocks are off their places, all others are exact
         placed: Option<Vec<String>> = given.list("placed", |r, node, at| r.text(node, at)),
@@ -255,7 +251,6 @@ impl CheckArgs {
     pub(crate) fn base(&self) -> analysis::Options {
         let mut options = self.margins.add_to(self.level.options()).verdict_only(self.verdict_only);
         options.sensitivity = self.sensitivity.map(|margin| margin.0);
-        options.reach = self.reach;
         options
     }
 

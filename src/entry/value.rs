@@ -5,7 +5,7 @@ use std::str::FromStr;
 use std::time::Duration;
 
 use crate::clock::Instant;
-use crate::mechanics::analysis::{MarginKind, Reach};
+use crate::mechanics::analysis::MarginKind;
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Colour, Drawing, Theme};
 use crate::text::Word;
@@ -174,16 +174,6 @@ pub(crate) fn between(typed: &str, [least, most]: [f64; 2], error: impl Fn() -> 
 
 pub(super) fn length(typed: &str) -> Result<f64, String> {
     between(typed, [0.0, 1e12], || "give a length in metres, from 0 to 1e12".into())
-}
-
-/// Parses a target, such as `load_factor=2`.
-pub(super) fn reach(typed: &str) -> Result<Reach, String> {
-    use MarginKind::{HorizontalLoad, LoadFactor, Tilt};
-    let error = || "give load_factor, tilt (up to 80°) or horizontal_load, =, and a value of at least 0".to_owned();
-    let (kind, value) = typed.split_once('=').ok_or_else(error)?;
-    let kind = MarginKind::from_word(kind).filter(|kind| matches!(kind, LoadFactor | Tilt | HorizontalLoad));
-    let kind = kind.ok_or_else(error)?;
-    Ok(Reach { kind, value: between(value, [0.0, if kind == Tilt { 80.0 } else { 1e6 }], error)? })
 }
 
 pub(crate) fn seconds(typed: &str) -> Result<TimeLimit, String> {

@@ -62,7 +62,6 @@ mod problems;
 mod mutant;
 mod program;
 mod random;
-mod reach;
 mod removable;
 mod round;
 mod report;

@@ -8,7 +8,7 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use drystone::analysis::{Accuracy, Analysis, CapacityRequest, MarginKind, Options, Reach, Verdict};
+use drystone::analysis::{Accuracy, Analysis, CapacityRequest, MarginKind, Options, Verdict};
 use drystone::result::{Layout, Timing, to_json};
 use drystone::{Scene, figure, output};
 use serde_json::{Map, Value, json};
@@ -310,8 +310,7 @@ fn every_question_is_answered_at_the_ends_of_kernel_and_friction() {
             let all = Options::default().margins(true).wedging(true).placement(true).removable(true);
             let all = all.sensitivity(MarginKind::Tilt).capacity(CapacityRequest::of_block(held));
             let strict = (friction == 0.6).then(|| all.accuracy(Accuracy::Proved));
-            for options in [Some(all.reach(Reach { kind: MarginKind::Tilt, value: 3.0 })), strict].into_iter().flatten()
-            {
+            for options in [Some(all), strict].into_iter().flatten() {
                 let analysis = Analysis::with(&scene, &options);
                 let text = to_json(&analysis, Timing::LeftOut, Layout::OneLine);
                 assert!(serde_json::from_str::<Value>(&text).is_ok(), "kernel {kernel}, friction {friction}");

@@ -9,7 +9,7 @@ mod result;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use drystone::analysis::{Analysis, CapacityRequest, MarginKind, Options, Reach};
+use drystone::analysis::{Analysis, CapacityRequest, MarginKind, Options};
 use drystone::certificate::Certificate;
 use drystone::result::key::{KEYS, Key, REFUSAL_KEYS, Type, paths};
 use drystone::result::{Layout, Timing, refusal, schema, to_json_with_blocks};
@@ -425,9 +425,6 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
         }
         if text.contains("\"cases\"") || text.contains("\"vehicle\"") && scene.blocks().len() < 20 {
             options.capacity = scene.block_named(&scene.blocks()[0].id).map(CapacityRequest::of_block);
-        }
-        if text.contains("retains earth") {
-            options = options.reach(Reach { kind: MarginKind::LoadFactor, value: 4.0 });
         }
         let mut analysis = Analysis::with(&scene, &options);
         if number < 6 {

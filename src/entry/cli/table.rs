@@ -363,7 +363,6 @@ fn remarks(analysis: &Analysis, number: usize, detail: &Detail, range: Option<&s
     let helped = frame.removable.iter().flat_map(|rows| question::removable_rows(scene, rows));
     let helped = helped.filter(|[_, may, _]| may.starts_with("while")).take(MAX_LISTED_FAILURES);
     remarks.extend(helped.map(|[block, may, _]| format!("removable: {block} {may}")));
-    remarks.extend(frame.reach.iter().flat_map(|found| question::reach_lines(scene, found)));
     remarks.extend(
         frame.vehicle.as_ref().map(|influence| format!("vehicle: {}", question::vehicle_sentence(scene, influence))),
     );

@@ -13,7 +13,7 @@ use super::answers::Answers;
 use super::condition::Condition;
 use super::decide::decided_forces;
 use super::margin::{END_TOL, largest_load_factor};
-use super::{Analysis, FrameAnalysis, Influence, Margins, Options, SupportMovement, Verdict, position, reach, repeat};
+use super::{Analysis, FrameAnalysis, Influence, Margins, Options, SupportMovement, Verdict, position, repeat};
 use crate::mechanics::scene::{Case, Load, Note, Scene};
 use crate::mechanics::solve::{DeadlineGuard, is_late};
 use crate::mechanics::statics::assembly::Assembly;
@@ -115,8 +115,6 @@ fn times(load: &Load, factor: f64) -> Load {
 impl Analysis {
     /// Analyses a scene with load cases.
     pub(super) fn of_cases(scene: Arc<Scene>, options: &Options) -> Analysis {
-        // A change must reach its target in all cases.
-        let alone = Options { reach: None, ..*options };
         let interfaces = Interfaces::new(&scene);
         let _until = DeadlineGuard::new(options.deadline);
         let source = repeat::source_of_each(&scene.frames);
@@ -130,7 +128,7 @@ impl Analysis {
             // If nothing was decided before the deadline, nothing is decided in the other cases either.
             let is_undecided = |found: &Analysis| found.frames.iter().all(|f| f.verdict == Verdict::Undecided);
             if !(options.is_late() && latest.as_ref().is_some_and(is_undecided)) {
-                latest = Some(Analysis::decide(in_case.into(), &alone));
+                latest = Some(Analysis::decide(in_case.into(), options));
             }
             let Some(found) = &mut latest else { continue };
             if k == 0 {
@@ -190,7 +188,6 @@ impl Analysis {
             frame.cases = Some(std::mem::take(&mut cases[*k]));
             frame.vehicle = lines[*k].take();
         }
-        reach::add_reach(&scene, own.into_iter(), options);
         for (k, source) in source.into_iter().enumerate() {
             (frames[k], scenes[k]) = (frames[source].clone(), scenes[source].clone());
         }

@@ -37,7 +37,6 @@ pub(super) fn unloaded_frame(context: &FrameContext, assembly: &Assembly, effect
         placement: None,
         movements: Vec::new(),
         removable: None,
-        reach: None,
         vehicle: None,
         under_vehicle: None,
         corners_decide: false,

@@ -31,7 +31,6 @@ mod movement;
 mod answers;
 mod condition;
 mod corners;
-mod reach;
 mod vehicle;
 mod sensitivity;
 
@@ -73,7 +72,6 @@ pub use option::{Accuracy, Options};
 pub use pair::pair;
 pub use placement::{BlockPlacement, Placement, PlacementError, PlacementLimit};
 pub use position::VehiclePosition;
-pub use reach::{Change, ChangeKind, Reach, Reached};
 pub use removable::{Help, Removable};
 pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, LoadSlope, NoSensitivity, Sensitivity, Slope};
 pub use thrust_states::{ThrustState, ThrustStates};
@@ -208,8 +206,6 @@ pub struct FrameAnalysis {
     pub movements: Vec<SupportMovement>,
     /// Which blocks may leave, in the order of placing, if requested.
     pub removable: Option<Vec<Removable>>,
-    /// What reaches the target of [`Options::reach`], if it was requested.
-    pub reach: Option<Reached>,
     /// The load factor for each position of the vehicle of the scene, if the frame stands without it.
     pub vehicle: Option<Influence>,
     /// Present if the frame stands alone, but not under the vehicle of the scene: all other results are then those with
@@ -306,7 +302,6 @@ impl Analysis {
         capacity::add_capacities(&once, &interfaces, &mut frames, options);
         movement::add_movements(&once, &interfaces, &mut frames, options);
         removable::add_removables(&once, &interfaces, &mut frames, options);
-        reach::add_reach(&once, frames.iter_mut().enumerate(), options);
         let governing = vehicle::decide_under_vehicle((&once, &scene), &interfaces, &mut frames, options);
         let notes = gaps_closed::notes(&once, &interfaces);
         let frames = repeat::with_repeats(frames, &source);

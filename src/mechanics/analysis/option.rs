@@ -7,7 +7,6 @@ use std::time::Duration;
 
 use super::capacity::CapacityRequest;
 use super::margin::{MarginKind, MarginKinds};
-use super::reach::Reach;
 use crate::clock::Instant;
 use crate::mechanics::proof::ProofThreshold;
 use crate::mechanics::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
@@ -39,8 +38,6 @@ pub struct Options {
     /// Whether to find out which blocks may leave a frame ([`FrameAnalysis::removable`](super::FrameAnalysis::removable)).
     /// Takes one verdict for each block, and some programs for each block without which the rest falls.
     pub removable: bool,
-    /// The value of a margin for which the least single changes are found, if any.
-    pub reach: Option<Reach>,
     /// Whether to compute only the verdict and its proof. If a frame falls, its failures are not computed. If it
     /// stands, the forces balance, but their sum may not be the least. The result states this.
     pub verdict_only: bool,
@@ -89,7 +86,6 @@ impl Options {
     optional_setters! {
         sensitivity: MarginKind, "The margin whose derivatives are computed.";
         capacity: CapacityRequest, "The request to compute all forces that a block can carry.";
-        reach: Reach, "The value of a margin for which the least single changes are found.";
         tolerance: f64, "A solver tolerance that replaces the tolerance of `accuracy`.";
         deadline: Instant, "The time at which the analysis stops.";
     }
@@ -105,7 +101,6 @@ impl Options {
         wedging: false,
         placement: false,
         removable: false,
-        reach: None,
         verdict_only: false,
         deadline: None,
     };

@@ -137,7 +137,7 @@ pub(super) fn decide_under_vehicle(
         }
         let has_others = options.placement || options.capacity.is_some() || options.wedging;
         if options.wanted_margins().is_some() || has_others {
-            let asked = Options { removable: false, reach: None, ..*options };
+            let asked = Options { removable: false, ..*options };
             // The worst positions come first: their answers are seldom changed by others.
             let factor = |own: &usize| influence.as_ref().and_then(|line| line.positions[*own].factor);
             let mut order: Vec<usize> = (0..count).filter(|own| worst_position != Some(*own)).collect();
@@ -190,15 +190,6 @@ pub(super) fn decide_under_vehicle(
         found.vehicle = influence.filter(|_| !options.verdict_only);
     }
     governing
-}
-
-/// Returns a scene with the axles of its vehicle as loads at the governing position of one of its frames. `None` if it has
-/// no vehicle, or if the vehicle has no least factor there.
-pub(super) fn at_governing_position(scene: &Scene, number: usize, interfaces: &Interfaces) -> Option<Scene> {
-    let (vehicle, frame) = (scene.vehicle.as_ref()?, scene.frames.get(number)?);
-    let positions = positions(scene, vehicle, &track(scene, frame, vehicle))?;
-    let influence = influence(scene, frame, interfaces, vehicle, positions)?;
-    Some(with_axle_loads(scene, vehicle, &influence.positions[influence.governing?]))
 }
 
 impl Analysis {

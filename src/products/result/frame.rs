@@ -3,7 +3,7 @@
 use super::Timing;
 use super::json::{Json, motions, object};
 use super::margin::{case, margins_of};
-use super::question::{capacity, conditions, movement, placement, reach, removable, vehicle, wedging};
+use super::question::{capacity, conditions, movement, placement, removable, vehicle, wedging};
 use super::sensitivity::sensitivity;
 use crate::geometry::Point;
 use crate::mechanics::analysis::{Contact, EffectName, Failure, FrameAnalysis, Proof, RobotForce, SolveReport, Stages};
@@ -57,7 +57,6 @@ pub(super) fn frame<'a>(
         conditions: (cases.is_some() || frame.vehicle.is_some()).then(|| conditions(frame)),
         movements: Json::list(frame.movements.iter().map(|moved| movement(scene, moved))).unless_empty(),
         removable: frame.removable.as_ref().map(|rows| removable(scene, rows)),
-        reach: frame.reach.as_ref().map(|found| reach(scene, found)),
         vehicle: frame.vehicle.as_ref().map(|influence| vehicle(scene, influence)),
         verdict_without_vehicle: frame.under_vehicle.map(|under| under.alone.word()),
         governing_position: frame.under_vehicle.and_then(|under| under.position),

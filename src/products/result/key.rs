@@ -473,17 +473,6 @@ pub static KEYS: &[Key] = &[
                 key("force", Number, "least force of the robot").unit("N"),
             ]),
         ]),
-        key("reach", Object, "least single changes with which a margin reaches a target").when("with `--reach`").of(&[
-            key("margin", Word(&["load_factor", "tilt", "horizontal_load"]), "margin"),
-            key("target", Number, "value that the margin must reach; degrees for the tilt, to both sides"),
-            key("stands", FlagOrOpen, "whether the unchanged frame stands, also at the target"),
-            key("changes", Objects, "changes, each of which alone reaches the target, and those that cannot; empty if none is needed").of(&[
-                key("change", Word(&["friction", "friction_factor", "thickness", "weight", "hold", "tie", "prop"]), "one friction coefficient at all joints; a factor on the friction, if the coefficients differ; a factor on the thickness of a chain; more weight on a block; a force from outside that holds a block at its centroid; a tie or a prop between the centroids of two blocks"),
-                key("blocks", NameList, "changed block, or the two blocks that are connected: those that need least of all that were tried").when("if blocks are chosen"),
-                key("amount", Number, "least amount, rounded up to three digits: a coefficient, a factor, or N; the changed frame is proved to stand at the target").when("if some amount reaches the target"),
-                key("mechanism", Motions, "motion that no amount stops").when("if no amount does, and one motion proves it"),
-            ]),
-        ]),
         key("vehicle", Object, "influence line of the vehicle: the largest load factor for each of its positions").when("if the scene has a `vehicle` and the frame stands without it").of(&[
             key("governing", Count, "index in `positions`, from 0, of the position with the least factor").when("if some factor is limited"),
             key("mechanism", Motions, "motion just beyond this factor"),

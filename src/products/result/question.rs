@@ -2,7 +2,7 @@
 
 use super::json::{Json, compact, motions, object};
 use crate::mechanics::analysis::{
-    Condition, FrameAnalysis, Influence, LoadCapacity, MarginKind, Motion, MovementOutcome, Placement, Reached,
+    Condition, FrameAnalysis, Influence, LoadCapacity, MarginKind, Motion, MovementOutcome, Placement,
     Removable, RuledOut, Slide, SupportMovement, Verdict, Wedged,
 };
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
@@ -63,24 +63,6 @@ pub(super) fn conditions(frame: &FrameAnalysis) -> Json<'_> {
         placement: frame.placement.as_ref().map(|found| both(&found.conditions)),
         removable: Json::list(rows.map(|row| one(&row.condition))).unless_empty(),
         capacity: Json::list(edges.map(|edge| one(&edge.condition))).unless_empty(),
-    }
-}
-
-/// What reaches the target of a margin.
-pub(super) fn reach<'a>(scene: &'a Scene, found: &Reached) -> Json<'a> {
-    let changes = found.changes.iter().map(|change| {
-        object! {
-            change: change.what.word(),
-            blocks: Json::list(change.blocks.iter().map(|id| block(scene, *id))).unless_empty(),
-            amount: change.least,
-            mechanism: motions(scene, &change.mechanism).unless_empty(),
-        }
-    });
-    object! {
-        margin: found.target.kind.word(),
-        target: found.target.value,
-        stands: stands(found.verdict),
-        changes: Json::list(changes),
     }
 }
 

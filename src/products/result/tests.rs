@@ -117,7 +117,6 @@ fn frame() -> FrameAnalysis {
         placement: None,
         movements: vec![],
         removable: None,
-        reach: None,
         vehicle: None,
         capacity: None,
         only_by_wedging: None,

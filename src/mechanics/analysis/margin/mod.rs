@@ -100,19 +100,6 @@ pub(super) fn find_margins(parts: &[Part], kinds: MarginKinds, known: &mut BTree
     (margins, decided_count)
 }
 
-/// Returns the interval of the load factor or of the friction at which an assembly stands.
-pub(super) fn interval_of(assembly: &Assembly, kind: MarginKind) -> Interval {
-    let each = assembly.components().into_iter().map(|component| {
-        let mut trial = Trial::new(&component, None);
-        let (verdict, motion) = trial.decide(&Setting::default());
-        let stands = verdict == Verdict::Stable;
-        let own = parameter::margins(&mut trial, stands, MarginKinds::new(&[kind]), false);
-        // A component without loads stands at every factor or at none.
-        own.of(kind).cloned().unwrap_or_else(|| Interval::of_verdict(verdict, &motion, Interval::UNBOUNDED))
-    });
-    each.fold(Interval::FROM_ZERO, Interval::intersection)
-}
-
 /// Computes the intervals of the components that are missing in `known`, and adds the intervals to `known`. Returns how
 /// many components with changed parameters were evaluated for this.
 fn find_fresh_intervals(
