@@ -93,7 +93,7 @@ def vary(
     name: str,
     text: str | None,
     numbers: Sequence[str],
-    curve: str | None,
+    shown: tuple[str | None, str | None],
     digits: int,
     options: Options,
 ) -> tuple[str, str]: ...

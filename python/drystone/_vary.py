@@ -60,6 +60,7 @@ def vary(
     *,
     goal: str | None = None,
     curve: str | None = None,
+    isolines: str | None = None,
     digits: int = 4,
     accuracy: str = "standard",
     time_limit: float | None = None,
@@ -70,7 +71,7 @@ def vary(
     ``scene`` is a scene, or the name of a structure of ``drystone new``, such as "arch". ``numbers`` maps names to
     ``(from, to)`` for the numbers that vary, and to a value for numbers that are set. ``goal`` asks whether a number of
     the result is reached, such as ``"load_factor>=2"``. ``curve`` names the number of the result that is computed for
-    every value.
+    every value of one number; ``isolines`` names the one whose lines of equal values a map shows.
 
     >>> vary("arch", {"voussoirs": 31, "thickness": (0.1, 0.6)}).stands
     [(0.2264, 0.6)]
@@ -86,5 +87,5 @@ def vary(
         located=own is not None and own._located,
     )
     name = scene if isinstance(scene, str) else "the scene"
-    data, svg = _drystone.vary(name, None if own is None else own._json(), typed, curve, digits, options)
+    data, svg = _drystone.vary(name, None if own is None else own._json(), typed, (curve, isolines), digits, options)
     return Variation(json.loads(data), svg)

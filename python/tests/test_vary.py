@@ -35,6 +35,13 @@ def test_a_goal_and_a_curve():
     assert max(v for v in found.column("value") if v is not None) > 15
 
 
+def test_a_map_has_lines_of_equal_values():
+    found = ds.vary("incline", {"friction": (0.2, 1.0), "angle": (0, 40)}, isolines="tilt")
+    lines = {line["value"]: line["lines"] for line in found.data["isolines"]}
+    friction, angle = lines[10][0][0]
+    assert math.degrees(math.atan(friction)) - angle == pytest.approx(10, abs=0.05)
+
+
 def test_what_cannot_vary_is_refused():
     with pytest.raises(ds.DrystoneError, match="there is no structure bridge"):
         ds.vary("bridge", {"span": (1, 2)})

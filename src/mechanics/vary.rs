@@ -385,6 +385,88 @@ impl Map {
     }
 }
 
+/// A number of the result at the pairs of a regular grid over a [`Map`], where it holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// The values of the columns and of the rows.
+    places: [Vec<f64>; 2],
+    /// The number at each pair, by columns; infinite without a limit, `None` outside of the region.
+    values: Vec<Option<f64>>,
+}
+
+/// The number of cells of a [`Field`] along each range.
+const FIELD_CELLS: usize = 32;
+
+impl Field {
+    /// Finds the number at each pair of the grid at which the map holds.
+    pub fn new(map: &Map, of: impl Fn(&[f64]) -> Found + Sync) -> Field {
+        let places = map.ranges.each_ref().map(|range| range.values(FIELD_CELLS + 1));
+        let vertex = |axis: usize, value: f64| {
+            let range = &map.ranges[axis];
+            let share = (value - range.from) / (range.to - range.from);
+            if range.has_columns() {
+                2 * (value - range.from) as usize
+            } else {
+                (share * CELLS as f64).round() as usize
+            }
+        };
+        let pairs: Vec<[f64; 2]> = places[0].iter().flat_map(|x| places[1].iter().map(|y| [*x, *y])).collect();
+        let holds = |[x, y]: [f64; 2]| map.state([vertex(0, x), vertex(1, y)]) == State::Holds;
+        let inside: Vec<Vec<f64>> = pairs.iter().filter(|pair| holds(**pair)).map(|pair| pair.to_vec()).collect();
+        let mut found = all(inside, &of).into_iter();
+        let values = pairs.iter().map(|pair| holds(*pair).then(|| found.next()?.found.value).flatten()).collect();
+        Field { places, values }
+    }
+
+    /// Returns the least and the largest limited number, if there is one.
+    pub fn extent(&self) -> Option<(f64, f64)> {
+        let limited = self.values.iter().flatten().filter(|value| value.is_finite());
+        limited.map(|value| (*value, *value)).reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
+    }
+
+    /// Returns the lines along which the number has this value, as runs of pairs. The number is taken as linear along each
+    /// edge of the grid.
+    pub fn lines(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
+        let height = self.places[1].len();
+        let at = |[x, y]: Vertex| Some((self.values[x * height + y]?, [self.places[0][x], self.places[1][y]]));
+        let mut pieces: Vec<[[f64; 2]; 2]> = Vec::new();
+        for x in 0..self.places[0].len() - 1 {
+            for y in 0..height - 1 {
+                let corners = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]].map(at);
+                let [Some(a), Some(b), Some(c), Some(d)] = corners else { continue };
+                let edges = [[a, b], [b, c], [d, c], [a, d]];
+                let mut crossed = edges.into_iter().filter_map(|[(u, from), (v, to)]| {
+                    let share = (level - u) / (v - u);
+                    let crosses = (u < level) != (v < level) && share.is_finite();
+                    crosses.then(|| [0, 1].map(|i| from[i] + share * (to[i] - from[i])))
+                });
+                while let (Some(from), Some(to)) = (crossed.next(), crossed.next()) {
+                    pieces.push([from, to]);
+                }
+            }
+        }
+        // A piece joins the run that ends where it begins: neighbours compute the same point on their common edge.
+        let mut runs: Vec<Vec<[f64; 2]>> = Vec::new();
+        while let Some([from, to]) = pieces.pop() {
+            let mut run = std::collections::VecDeque::from([from, to]);
+            loop {
+                let ends = [run[0], run[run.len() - 1]];
+                let touches = |piece: &[[f64; 2]; 2]| piece.iter().any(|point| ends.contains(point));
+                let Some(next) = pieces.iter().position(touches) else { break };
+                let [a, b] = pieces.swap_remove(next);
+                match (ends[1] == a, ends[1] == b, ends[0] == a) {
+                    (true, ..) => run.push_back(b),
+                    (_, true, _) => run.push_back(a),
+                    (_, _, true) => run.push_front(b),
+                    _ => run.push_front(a),
+                }
+            }
+            runs.push(run.into());
+        }
+        runs
+    }
+}
+
 /// Returns the next vertex along an axis.
 fn step(mut vertex: Vertex, axis: usize) -> Vertex {
     vertex[axis] += 1;
@@ -421,6 +503,18 @@ mod tests {
         let samples = scan(&blocks, 9, 4, |at| found(at[0] <= 317.0));
         assert_eq!(intervals(&samples)[0].to, 317.0);
         assert!(samples.iter().all(|sample| sample.at[0].fract() == 0.0));
+    }
+
+    #[test]
+    fn lines_of_equal_values_of_a_linear_number_are_straight() {
+        let map = Map::new([range(0.0, 2.0), range(0.0, 1.0)], |at, _| found(at[1] < 0.9));
+        let field = Field::new(&map, |at| Found { value: Some(3.0 * at[0] + at[1]), ..found(true) });
+        let lines = field.lines(2.2);
+        assert_eq!(lines.len(), 1);
+        assert!(lines[0].len() > 20 && lines[0].iter().all(|[x, y]| (3.0 * x + y - 2.2).abs() < 1e-9), "{lines:?}");
+        assert!(field.lines(9.0).is_empty());
+        let (low, high) = field.extent().expect("values");
+        assert!(low == 0.0 && (6.8..6.9).contains(&high), "{high}");
     }
 
     #[test]

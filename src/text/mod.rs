@@ -26,6 +26,13 @@ pub fn hash(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
+/// Returns the words with a capital first letter.
+pub(crate) fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
 /// Returns the text on one line. Line breaks and tabs become spaces. Other control characters, and characters that
 /// change the reading direction, become [`HIDDEN`]. The number of characters stays the same.
 ///

@@ -87,7 +87,7 @@ const CRATE_FILES: &[(&str, &[&str])] = &[
             "sources/import/",
             "products/report/book.rs",
             "products/vary/mod.rs",
-            "entry/cli/vary.rs",
+            "entry/cli/vary/",
         ],
     ),
     ("toml", &["read/toml.rs"]),

@@ -332,7 +332,7 @@ const WRITERS: &[(&str, &[&str])] = &[
             // Refuses a script that would close its own element; it writes nothing.
             "entry/cli/report.rs",
             // Compares a number with a goal; it writes no markup.
-            "entry/cli/vary.rs",
+            "entry/cli/vary/varied.rs",
             // Draws the bar of a margin in a table cell.
             "products/report/print/table.rs",
             "pictures/output/svg/",

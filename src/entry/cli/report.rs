@@ -18,6 +18,7 @@ use crate::entry::cli::progress::Progress;
 use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::style_args::StyleArgs;
 use crate::entry::cli::terminal::Terminal;
+use crate::entry::cli::vary::{Ordinate, Varied};
 use crate::entry::request::AnalysisArgs;
 use crate::mechanics::analysis::{self, Analysis, MarginKind, MarginKinds};
 use crate::pictures::drawing::Theme;
@@ -58,6 +59,10 @@ pub(crate) struct Report {
     /// Add an appendix with all other results: all joints, effects, solver details, charts
     #[arg(long)]
     full: bool,
+    /// Add what drystone vary finds for one number of each scene, or for two: 'friction=0.2..0.9 --curve load_factor'. May be
+    /// given several times
+    #[arg(long, value_name = "NUMBERS", conflicts_with = "compare")]
+    vary: Vec<String>,
     /// Order the scenes by their headline margin, the smallest first
     #[arg(long)]
     sort: bool,
@@ -78,6 +83,10 @@ pub(crate) struct Report {
     #[command(flatten)]
     level: AnalysisArgs,
 }
+
+/// The digits of the ends of intervals, and the width of the picture of numbers that vary, pixels.
+const DIGITS: u32 = 4;
+const FIGURE_WIDTH: f64 = 480.0;
 
 /// The name of the script file that `examples/playground/build.sh` makes.
 const SCRIPT_NAME: &str = "interactive.js";
@@ -244,6 +253,9 @@ impl Report {
             )
             .into());
         };
+        if form == Form::Json && !self.vary.is_empty() {
+            return Err(format!("{shown}: a JSON report has no pages for --vary; use drystone vary --json").into());
+        }
         if self.split {
             return Err(format!("{shown}: --split writes many pages; give a folder, without an ending").into());
         }
@@ -304,8 +316,41 @@ impl Report {
             let measured = study(&[scene], &TOLERANCES, &mut |_| {});
             entry.add_study(&measured).map_err(|e| undone(&e))?;
         }
+        for typed in &self.vary {
+            self.add_varied(&mut entry, &read[0], typed, report_options)?;
+        }
         let piece = Piece::new(&entry, number, form, &stem_of(&self.output)).map_err(|e| undone(&e))?;
         Ok(Ok((piece, ending.unwrap_or(ExitStatus::Done))))
+    }
+
+    /// Adds the section of numbers that vary. `typed` has the words that follow the scene in `drystone vary`.
+    fn add_varied(
+        &self,
+        entry: &mut Entry,
+        source: &Source,
+        typed: &str,
+        options: &ReportOptions,
+    ) -> Result<(), CliError> {
+        let (mut numbers, mut ordinate) = (Vec::new(), Ordinate::default());
+        let mut words = typed.split_whitespace();
+        while let Some(word) = words.next() {
+            match word {
+                "--curve" => ordinate.curve = words.next(),
+                "--isolines" => ordinate.isolines = words.next(),
+                number => numbers.push(number.to_owned()),
+            }
+        }
+        let wrong = |why: CliError| CliError::CommandLine(format!("--vary {typed:?}: {}", why.message()));
+        // The bytes have the values of --set already.
+        let (bytes, level) = (|| Ok(source.file.clone()), AnalysisArgs { set: Vec::new(), ..self.level.clone() });
+        let varied = Varied::read(&source.name(), bytes, &numbers, ordinate, &level).map_err(wrong)?;
+        let answer = varied.answer(DIGITS, || ());
+        let width = Some(FIGURE_WIDTH);
+        let is_drawn = ordinate.curve.is_some() || varied.ranges.len() == 2;
+        let drawn = |theme: &Theme| varied.drawing(&answer, theme, width);
+        let picture = is_drawn.then(|| (drawn(&options.theme), options.dark.as_ref().map(drawn)));
+        entry.add_varied(typed, varied.paragraph(&answer), picture);
+        Ok(())
     }
 
     /// Reads the scenes of a task. The error contains the files that are not valid scenes.

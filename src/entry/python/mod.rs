@@ -19,7 +19,7 @@ use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIter
 
 use crate::entry::cli;
 use crate::entry::cli::error::CliError;
-use crate::entry::cli::vary::Varied;
+use crate::entry::cli::vary::{Ordinate, Varied};
 use crate::entry::request::{CheckArgs, Refused, in_json, read_json};
 use crate::mechanics::analysis::{self, Verdict};
 use crate::mechanics::certificate::Certificate;
@@ -209,21 +209,22 @@ fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
 }
 
 /// Finds the values of one or two numbers at which a structure stands. `text` is a scene as JSON; without it, `name` is a
-/// structure of `drystone new`. Returns the data as JSON, and the picture as SVG.
+/// structure of `drystone new`. `shown` has the numbers for a curve and for lines on a map. Returns the data as JSON, and the picture as SVG.
 #[pyfunction]
 fn vary(
     py: Python<'_>,
     name: &str,
     text: Option<String>,
     numbers: Vec<String>,
-    curve: Option<&str>,
+    shown: (Option<String>, Option<String>),
     digits: u32,
     options: &Options,
 ) -> PyResult<(String, String)> {
     let bytes = || text.map(String::into_bytes).ok_or_else(|| format!("there is no structure {name}").into());
     let level = &options.request.what.level;
     let found = py.detach(|| {
-        let varied = Varied::read(name, bytes, &numbers, curve, &level.started())?;
+        let ordinate = Ordinate { curve: shown.0.as_deref(), isolines: shown.1.as_deref() };
+        let varied = Varied::read(name, bytes, &numbers, ordinate, &level.started())?;
         let answer = varied.answer(digits.clamp(2, 9), || ());
         let svg = svg::write(&varied.drawing(&answer, &Theme::default(), None));
         Ok((varied.told(&answer).0.to_string(), svg))

@@ -7,7 +7,7 @@ use super::format::setting::{Paths, apply, is_within};
 use super::format::{SceneFile, Setting};
 use super::note::{Lines, Note, NoteCode};
 use super::reading::{from_bytes, unchanged};
-use super::{Scene, SceneError};
+use super::{Code, Scene, SceneError};
 use crate::read::Source;
 
 impl Scene {
@@ -42,14 +42,14 @@ impl Scene {
     }
 
     /// Reads and checks the bytes of a scene file with other values in place of some. Does not note which of them change
-    /// nothing.
+    /// nothing. Also returns the file with these values.
     pub(crate) fn from_slice_changed(
         bytes: &[u8],
         tolerance: Option<f64>,
         settings: &[Setting],
-    ) -> Result<Scene, SceneError> {
+    ) -> Result<(Scene, SceneFile), SceneError> {
         let (result, paths) = read(0, bytes, tolerance, settings);
-        result.map(|(scene, _)| scene).map_err(|problems| of_settings(problems, settings, &paths, ""))
+        result.map_err(|problems| of_settings(problems, settings, &paths, ""))
     }
 
     /// Returns all that the verdict depends on, as text to be compared.
@@ -62,6 +62,10 @@ impl Scene {
 /// Adds to each problem the setting that causes it, and removes the line: the value of a setting is not in the file.
 fn of_settings(mut problems: SceneError, settings: &[Setting], paths: &Paths, option: &str) -> SceneError {
     for problem in &mut problems.list {
+        if problem.code == Code::UnknownName && paths.is_empty() {
+            problem.message.insert_str(0, option);
+            continue;
+        }
         let found = paths.iter().position(|path| is_within(&problem.path, path));
         if let Some(setting) = found.and_then(|number| settings.get(number)) {
             (problem.line, problem.column, problem.span) = (0, 0, None);

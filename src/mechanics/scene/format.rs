@@ -26,6 +26,8 @@ pub use load::{AxleEntry, BlockSide, CaseEntry, DepthEntry, LoadEntry, MovementE
 pub use map::Map;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use setting::Setting;
+#[cfg(feature = "cli")]
+pub(crate) use setting::number_in;
 pub use step::{Expectation, GripEntry, HoldEntry, StepEntry};
 pub(in crate::mechanics::scene) use unit::convert;
 pub use unit::{ForceUnit, LengthUnit, UnitsEntry};

@@ -35,6 +35,8 @@ pub use collision::Penetration;
 pub(crate) use format::CornerContacts;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use format::Setting;
+#[cfg(feature = "cli")]
+pub(crate) use format::number_in;
 #[cfg(feature = "schema")]
 pub use format::schema;
 pub(crate) use heal::size;

@@ -2,8 +2,8 @@
 
 use super::json::{Json, compact, motions, object};
 use crate::mechanics::analysis::{
-    Condition, FrameAnalysis, Influence, LoadCapacity, MarginKind, Motion, MovementOutcome, Placement,
-    Removable, RuledOut, Slide, SupportMovement, Verdict, Wedged,
+    Condition, FrameAnalysis, Influence, LoadCapacity, MarginKind, Motion, MovementOutcome, Placement, Removable,
+    RuledOut, Slide, SupportMovement, Verdict, Wedged,
 };
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::text::Word;

@@ -1,7 +1,7 @@
 //! [`map`] draws the regions of two numbers, [`curve`] a number of the result over one number that varies.
 
-use super::{Question, axis_name, short};
-use crate::mechanics::vary::{Map, Range, Sample, State, intervals};
+use super::{Question, axis_name, levels, short};
+use crate::mechanics::vary::{Field, Map, Range, Sample, State, intervals};
 use crate::pictures::chart::round_step;
 use crate::pictures::drawing::{
     Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
@@ -12,6 +12,8 @@ use crate::products::wording::number::digits;
 const WIDTH: f64 = 560.0;
 const MARGIN: f64 = 10.0;
 const RATIO: f64 = 0.78;
+/// The width of a line of equal values, pixels.
+const ISOLINE: f64 = 0.9;
 
 /// A plane with two axes on a page.
 struct Plane<'a> {
@@ -29,9 +31,16 @@ struct Plane<'a> {
 /// An entry of the legend.
 struct Key<'k> {
     words: &'k str,
-    /// The colour of a square, or of a dot.
     colour: Colour,
-    is_dot: bool,
+    mark: Mark,
+}
+
+/// The mark of an entry of the legend.
+#[derive(Clone, Copy)]
+enum Mark {
+    Square,
+    Dot,
+    Line,
 }
 
 impl<'a> Plane<'a> {
@@ -119,9 +128,15 @@ impl<'a> Plane<'a> {
             let at = PagePoint::new(x + 0.4 * size, y - 0.35 * size);
             let half = 0.4 * size;
             let square = [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| at.moved(x, y));
-            let mark = match key.is_dot {
-                true => Path::filled(Outline::circle(at, 0.3 * size), key.colour),
-                false => Path::filled(Outline::ring(square), key.colour).with_stroke(Stroke::new(theme.faint, 0.7)),
+            let mark = match key.mark {
+                Mark::Dot => Path::filled(Outline::circle(at, 0.3 * size), key.colour),
+                Mark::Line => Path::stroked(
+                    Outline::line([at.moved(-1.5 * half, 0.0), at.moved(1.5 * half, 0.0)]),
+                    Stroke::new(key.colour, ISOLINE),
+                ),
+                Mark::Square => {
+                    Path::filled(Outline::ring(square), key.colour).with_stroke(Stroke::new(theme.faint, 0.7))
+                }
             };
             self.items.push(mark.into());
             self.items
@@ -184,8 +199,9 @@ fn letters(theme: &Theme, state: State) -> Colour {
     theme.letters_on(colour(theme, state), Some(own))
 }
 
-/// Draws the regions of two numbers, with their border and how the structure falls. `width` is in pixels.
-pub(crate) fn map(question: &Question, map: &Map, theme: &Theme, width: Option<f64>) -> Drawing {
+/// Draws the regions of two numbers, with their border, how the structure falls, and the lines of equal values of a number
+/// of the result. `width` is in pixels.
+pub(crate) fn map(question: &Question, map: &Map, field: Option<&Field>, theme: &Theme, width: Option<f64>) -> Drawing {
     let [x, y] = &map.ranges;
     let ranges = [x.shown(), y.shown()];
     let mut plane = Plane::new(theme, width, ranges, widest(y.from, y.to, theme));
@@ -200,7 +216,7 @@ pub(crate) fn map(question: &Question, map: &Map, theme: &Theme, width: Option<f
         if rings.is_empty() {
             continue;
         }
-        keys.push(Key { words: question.word(state), colour: colour(theme, state), is_dot: false });
+        keys.push(Key { words: question.word(state), colour: colour(theme, state), mark: Mark::Square });
         if state == State::Fails {
             continue;
         }
@@ -219,8 +235,13 @@ pub(crate) fn map(question: &Question, map: &Map, theme: &Theme, width: Option<f
         let line = Path::stroked(border, Stroke::new(theme.ink, 1.6));
         plane.items.push(Item::Group(Group::with_class("border").with(line)));
     }
-    // A name in the middle of each region, and of each way to fall, where it fits.
+    // The numbers of lines of equal values come first: a name finds another place, or none.
     let mut taken: Vec<[PagePoint; 2]> = Vec::new();
+    let ordinate = question.ordinate.as_deref().unwrap_or_default();
+    if let Some(field) = field {
+        isolines(&mut plane, field, &axis_name(ordinate, &question.units), &mut taken);
+    }
+    // A name in the middle of each region, and of each way to fall, where it fits.
     for (state, name, at, room) in names(question, map) {
         let room = 2.0 * room * plane.rect.width.min(plane.rect.height) - plane.size;
         let lines = text::wrap(&name, Face::Sans, plane.size, room.max(5.0 * plane.size));
@@ -249,6 +270,10 @@ pub(crate) fn map(question: &Question, map: &Map, theme: &Theme, width: Option<f
             plane.words(middle, &lines, letters(theme, state), Face::Sans);
         }
     }
+    let lines = format!("lines: {}", axis_name(ordinate, &question.units));
+    if field.is_some() {
+        keys.push(Key { words: &lines, colour: theme.stands, mark: Mark::Line });
+    }
     if let [Some(a), Some(b)] = question.given[..]
         && (x.from..=x.to).contains(&a)
         && (y.from..=y.to).contains(&b)
@@ -256,10 +281,60 @@ pub(crate) fn map(question: &Question, map: &Map, theme: &Theme, width: Option<f
         let dot =
             Path::filled(Outline::circle(plane.place([a, b]), 0.3 * plane.size), theme.ink).cased(theme.page, 1.2);
         plane.items.push(Item::Group(Group::with_class("given").titled("the scene as given").with(dot)));
-        keys.push(Key { words: "the scene as given", colour: theme.ink, is_dot: true });
+        keys.push(Key { words: "the scene as given", colour: theme.ink, mark: Mark::Dot });
     }
-    plane.axes([&axis_name(&x.name), &axis_name(&y.name)], [x.is_whole, y.is_whole]);
+    let name = |range: &Range| axis_name(&range.name, &question.units);
+    plane.axes([&name(x), &name(y)], [x.is_whole, y.is_whole]);
     plane.finish(&keys, format!("{}: {} and {}", question.name, x.name, y.name), question.map_lines(map).join(" "))
+}
+
+/// Draws the lines of equal values of a number, with the value on each, where it meets no other.
+fn isolines(plane: &mut Plane<'_>, field: &Field, name: &str, taken: &mut Vec<[PagePoint; 2]>) {
+    let (theme, size) = (plane.theme, plane.size);
+    let (ink, below) = (theme.stands, colour(theme, State::Holds));
+    let levels = levels(field);
+    let step = levels.windows(2).next().map_or(1.0, |pair| pair[1] - pair[0]);
+    let mut group = Group::with_class("isolines").titled(name);
+    let mut labels = Vec::new();
+    for level in levels {
+        let mut lines: Vec<Vec<PagePoint>> = field
+            .lines(level)
+            .into_iter()
+            .map(|line| line.into_iter().map(|pair| plane.place(pair)).collect())
+            .collect();
+        let long = |line: &Vec<PagePoint>| {
+            line.windows(2).map(|ends| libm::hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y)).sum::<f64>()
+        };
+        lines.sort_by(|a, b| long(b).total_cmp(&long(a)));
+        let words = number(level, step);
+        let (half, high) = (0.5 * text::width(&words, Face::Sans, size) + 2.0, 0.6 * size);
+        // The value stands at the middle of the longest line, or as near to it as there is room.
+        if let Some(line) = lines.first().filter(|line| long(line) > 4.0 * half) {
+            let mut places: Vec<usize> = (0..line.len()).collect();
+            places.sort_by_key(|at| at.abs_diff(line.len() / 2));
+            let is_inside = |[from, to]: &[PagePoint; 2]| {
+                let PageRect { at, width, height } = plane.rect;
+                from.x > at.x && from.y > at.y && to.x < at.x + width && to.y < at.y + height
+            };
+            let rooms = places.into_iter().map(|at| [line[at].moved(-half, -high), line[at].moved(half, high)]);
+            let free = rooms.filter(is_inside).find(|[from, to]| {
+                !taken.iter().any(|[a, b]| from.x < b.x && a.x < to.x && from.y < b.y && a.y < to.y)
+            });
+            if let Some(room) = free {
+                taken.push(room);
+                let at = PagePoint::new(room[0].x + half, room[0].y + high + 0.35 * size);
+                let words = Text::new(at, words, Face::Sans, size, theme.letters_on(below, Some(ink)));
+                labels.push(words.anchored(Anchor::Middle).with_halo(below, 4.0));
+            }
+        }
+        for line in lines {
+            group = group.with(Path::stroked(Outline::line(line), Stroke::new(ink, ISOLINE)));
+        }
+    }
+    for label in labels {
+        group = group.with(label);
+    }
+    plane.items.push(Item::Group(group));
 }
 
 /// Joins lines that follow each other.
@@ -322,6 +397,7 @@ pub(crate) fn curve(
     width: Option<f64>,
 ) -> Drawing {
     let ordinate = question.ordinate.as_deref().unwrap_or_default();
+    let ordinate_name = axis_name(ordinate, &question.units);
     let value = |sample: &Sample| sample.found.value.filter(|value| value.is_finite());
     let values: Vec<f64> = samples.iter().filter_map(value).collect();
     let (least, most) =
@@ -339,7 +415,7 @@ pub(crate) fn curve(
         let words = question.word(interval.state);
         plane.fill(&[ring], colour(theme, interval.state), words);
         if keys.iter().all(|key| key.words != words) {
-            keys.push(Key { words, colour: colour(theme, interval.state), is_dot: false });
+            keys.push(Key { words, colour: colour(theme, interval.state), mark: Mark::Square });
         }
         if number > 0 {
             let line = Outline::line([plane.place([from, low]), plane.place([from, top])]);
@@ -362,9 +438,9 @@ pub(crate) fn curve(
     }
     if !outline.segments.is_empty() {
         let line = Path::stroked(outline, Stroke::new(theme.ink, 1.8));
-        plane.items.push(Item::Group(Group::with_class("curve").titled(axis_name(ordinate)).with(line)));
+        plane.items.push(Item::Group(Group::with_class("curve").titled(&*ordinate_name).with(line)));
     }
-    plane.axes([&axis_name(&range.name), &axis_name(ordinate)], [range.is_whole, false]);
+    plane.axes([&axis_name(&range.name, &question.units), &ordinate_name], [range.is_whole, false]);
     let title = format!("{}: {ordinate} over {}", question.name, range.name);
     plane.finish(&keys, title, question.lines(range, samples).join(" "))
 }

@@ -6,8 +6,10 @@ use serde_json::{Value, json};
 
 pub(crate) use chart::{curve, map};
 
-use crate::mechanics::vary::{Interval, Map, Range, Sample, State, intervals};
+use crate::mechanics::vary::{Field, Interval, Map, Range, Sample, State, intervals};
+use crate::pictures::chart::round_step;
 use crate::products::wording::number::digits;
+use crate::text::capitalised;
 
 /// What is examined: how the numbers vary, and what is asked of each scene.
 #[derive(Clone, Debug)]
@@ -22,6 +24,8 @@ pub(crate) struct Question {
     pub given: Vec<Option<f64>>,
     /// Whether theory says that a single interval holds.
     pub is_interval: bool,
+    /// The symbols of the units of length and of force in the scene file.
+    pub units: [String; 2],
 }
 
 impl Question {
@@ -52,13 +56,33 @@ impl Question {
         let head = format!("{}: {} from {} to {}", self.name, range.name, digits(range.from), digits(range.to));
         let head = self.goal.as_ref().map_or(head.clone(), |goal| format!("{head}, {goal}"));
         let rows = intervals(samples).into_iter().map(|interval| {
-            let Interval { state, from, to, words } = interval;
-            let values =
-                if from == to { format!("at {}", short(from)) } else { format!("{} to {}", short(from), short(to)) };
-            let words = if words.is_empty() { words } else { format!("  ({words})") };
-            format!("  {:<11} {values}{words}", self.word(state))
+            let words = if interval.words.is_empty() { String::new() } else { format!("  ({})", interval.words) };
+            format!("  {:<11} {}{words}", self.word(interval.state), values(&interval))
         });
         [head].into_iter().chain(rows).chain([format!("  {}", self.proof(samples))]).collect()
+    }
+
+    /// Says the same as [`Question::lines`] in a title and a paragraph, for a report.
+    pub(crate) fn paragraph(&self, range: &Range, samples: &[Sample]) -> [String; 2] {
+        let goal = self.goal.as_ref().map_or(String::new(), |goal| format!(", {goal}"));
+        let parts = intervals(samples).into_iter().map(|interval| {
+            let words = if interval.words.is_empty() { String::new() } else { format!(" ({})", interval.words) };
+            format!("{} {}{words}", self.word(interval.state), values(&interval))
+        });
+        let said = parts.collect::<Vec<_>>().join("; ");
+        let title = format!("{} from {} to {}{goal}", range.name, digits(range.from), digits(range.to));
+        [title, format!("{}. {}.", capitalised(&said), capitalised(&self.proof(samples)))]
+    }
+
+    /// Says the same as [`Question::map_lines`] in a title and a paragraph, for a report.
+    pub(crate) fn map_paragraph(&self, map: &Map) -> [String; 2] {
+        let lines = self.map_lines(map);
+        let title = lines[0].strip_prefix(&format!("{}: ", self.name)).unwrap_or(&lines[0]).to_owned();
+        let goal = self.goal.as_ref().map_or(String::new(), |goal| format!(", {goal}"));
+        [
+            title + &goal,
+            lines[1..].iter().map(|line| format!("{}.", capitalised(line.trim()))).collect::<Vec<_>>().join(" "),
+        ]
     }
 
     /// Says how many of the pairs of a map hold.
@@ -96,15 +120,30 @@ impl Question {
         text
     }
 
-    /// Writes the outlines of the region that holds, and all samples, as JSON.
-    pub(crate) fn map_json(&self, map: &Map) -> Value {
+    /// Writes the outlines of the region that holds, all samples, and the lines of equal values as JSON.
+    pub(crate) fn map_json(&self, map: &Map, field: Option<&Field>) -> Value {
         let mut text = self.head(&map.ranges);
         let rings = map.region(State::Holds).into_iter();
         let rings = rings.map(|ring| ring.into_iter().map(|(pair, _)| pair).collect::<Vec<_>>());
         text["region"] = json!(rings.collect::<Vec<_>>());
         text["samples"] = entries(&map.samples);
+        if let Some(field) = field {
+            let line = |level: &f64| json!({ "value": level, "lines": field.lines(*level) });
+            text["isolines"] = json!(levels(field).iter().map(line).collect::<Vec<_>>());
+        }
         text
     }
+}
+
+/// The number of lines of equal values on a map, about.
+const ISOLINES: f64 = 9.0;
+
+/// Returns round values, at equal distances, between the least and the largest value on a map.
+pub(crate) fn levels(field: &Field) -> Vec<f64> {
+    let Some((low, high)) = field.extent().filter(|(low, high)| high > low) else { return Vec::new() };
+    let step = round_step((high - low) / ISOLINES);
+    let (first, last) = (libm::ceil(low / step) as i64, libm::floor(high / step) as i64);
+    (first..=last).map(|number| number as f64 * step).collect()
 }
 
 /// Writes samples as CSV: a column for each number, the result, and the number of the result.
@@ -135,7 +174,7 @@ fn entries(samples: &[Sample]) -> Value {
 }
 
 /// Returns the word of a state in JSON and CSV.
-fn state_key(state: State) -> &'static str {
+pub(crate) fn state_key(state: State) -> &'static str {
     match state {
         State::Holds => "holds",
         State::Fails => "fails",
@@ -144,14 +183,21 @@ fn state_key(state: State) -> &'static str {
     }
 }
 
+/// Writes the values of an interval.
+fn values(interval: &Interval) -> String {
+    let (from, to) = (short(interval.from), short(interval.to));
+    if interval.from == interval.to { format!("at {from}") } else { format!("{from} to {to}") }
+}
+
 /// Writes a value with all its digits: the values at ends are short decimals.
 fn short(value: f64) -> String {
     let text = format!("{value}");
     if text.len() > 9 { digits(value) } else { text.replace('-', "−") }
 }
 
-/// Returns the name of a number for an axis.
-pub(crate) fn axis_name(name: &str) -> String {
+/// Returns the name of a number for an axis, with its unit. `units` has those of length and of force.
+pub(crate) fn axis_name(name: &str, units: &[String; 2]) -> String {
+    let [length, force] = units;
     match name {
         "friction" => "friction coefficient".into(),
         "kernel" => "safety kernel".into(),
@@ -160,9 +206,21 @@ pub(crate) fn axis_name(name: &str) -> String {
         "load_factor" => "load factor".into(),
         "horizontal_load" => "horizontal load, share of the weight".into(),
         "thickness" | "span" | "width" | "height" | "length" | "lean" | "jamb" | "lintel" | "side" => {
-            format!("{name}, m")
+            format!("{name}, {length}")
         }
         "placement" => "placement error, m".into(),
+        // A number of a list or of a body is named by its path.
+        path if path.contains(['.', '[']) => {
+            let key = path.trim_end_matches(|c: char| c == '[' || c == ']' || c.is_ascii_digit());
+            match key.rsplit('.').next().unwrap_or(key) {
+                "weight" | "force" => format!("{path}, {force}"),
+                "torque" => format!("{path}, {force} {length}"),
+                "at" | "polygon" | "centre" | "radius" | "grip" => format!("{path}, {length}"),
+                "mass" => format!("{path}, kg"),
+                _ => path.to_owned(),
+            }
+        }
+        "total_force" | "total_sticking" | "weight" => format!("{}, N", name.replace('_', " ")),
         other => other.replace('_', " "),
     }
 }

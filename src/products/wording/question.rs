@@ -5,8 +5,8 @@ use super::failure::{pair, shortened};
 use super::number::{NO_BREAK, amount, counted, digits, listed, place, quantity, three, three_down, three_up};
 use crate::geometry::Point;
 use crate::mechanics::analysis::{
-    Analysis, CaseResult, Condition, Crack, Cracked, FrameAnalysis, Influence, MarginKind,
-    MovementOutcome, Placement, PlacementLimit, Removable, SupportMovement, VehiclePosition, Verdict,
+    Analysis, CaseResult, Condition, Crack, Cracked, FrameAnalysis, Influence, MarginKind, MovementOutcome, Placement,
+    PlacementLimit, Removable, SupportMovement, VehiclePosition, Verdict,
 };
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::text::line;

@@ -175,6 +175,99 @@ fn files_have_all_samples_and_pictures_name_their_regions() {
     assert!(text("curve.csv").starts_with("friction,state,tilt\n") && text("curve.svg").contains("0.364"));
 }
 
+/// An incline of friction μ and angle α stands at tilts up to atan μ − α: each line of equal tilt has this value.
+#[test]
+fn lines_on_a_map_have_the_value_of_a_closed_form() {
+    let bench = Bench::new();
+    let ran = run(
+        &bench,
+        "incline friction=0.2..1 angle=0..40 --isolines tilt -o map.json -o map.svg --keep kept --resume log",
+    );
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let text = |name: &str| fs::read_to_string(bench.path(name)).expect("written");
+    let json: Value = serde_json::from_str(&text("map.json")).expect("JSON");
+    let lines = json["isolines"].as_array().expect("a list");
+    assert!(lines.len() >= 4 && json["value"] == "tilt", "{json}");
+    for line in lines {
+        let value = line["value"].as_f64().expect("a number");
+        for pair in line["lines"].as_array().expect("a list").iter().flat_map(|run| run.as_array().expect("pairs")) {
+            let [friction, angle] = [0, 1].map(|i| pair[i].as_f64().expect("a number"));
+            let wanted = libm::atan(friction).to_degrees() - angle;
+            assert!((value - wanted).abs() < 0.05, "{friction}, {angle}: {value} beside {wanted}");
+        }
+    }
+    assert!(text("map.svg").contains("lines: tilt, degrees"));
+    // Each sample is a scene, which has its verdict.
+    let samples = json["samples"].as_array().expect("samples");
+    let names: std::collections::BTreeSet<String> = samples
+        .iter()
+        .map(|sample| {
+            format!(
+                "friction={} angle={}.json",
+                sample["at"][0].as_f64().expect("friction"),
+                sample["at"][1].as_f64().expect("angle")
+            )
+        })
+        .collect();
+    let kept: std::collections::BTreeSet<String> = fs::read_dir(bench.path("kept"))
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    assert_eq!(names, kept);
+    let scene = |name: &str| drystone::Scene::from_json(&text(&format!("kept/{name}"))).expect("a scene");
+    assert!((scene("friction=0.2 angle=0.json").blocks()[0].body.friction - 0.2).abs() < 1e-12);
+    // A later run takes all results from the file, and writes the same; one with another question is refused.
+    let (log, map) = (text("log"), text("map.json"));
+    let again = run(&bench, "incline friction=0.2..1 angle=0..40 --isolines tilt -o again.json --resume log");
+    assert_eq!((again.code, text("again.json") == map, text("log") == log), (0, true, true), "{}", again.err);
+    // What a stopped run left, half a line too, is completed.
+    fs::write(bench.path("log"), &log[..log.len() / 2]).expect("written");
+    let again = run(&bench, "incline friction=0.2..1 angle=0..40 --isolines tilt -o again.json --resume log");
+    assert_eq!((again.code, text("again.json") == map, text("log").lines().count()), (0, true, log.lines().count()));
+    let ran = run(&bench, "incline friction=0.2..1 angle=0..50 --isolines tilt --resume log");
+    assert_eq!((ran.code, text("log").lines().count()), (0, text("log").lines().count()));
+    let ran = run(&bench, "incline friction=0.2..1 --resume log");
+    assert!(ran.code == 2 && ran.err.contains("results of another question"), "{}", ran.err);
+    fs::write(bench.path("notes.txt"), "mine\n").expect("written");
+    let ran = run(&bench, "incline friction=0.2..1 --resume notes.txt");
+    assert!(ran.code == 2 && text("notes.txt") == "mine\n", "{}", ran.err);
+}
+
+#[test]
+fn a_report_has_what_varies_with_its_picture() {
+    let bench = Bench::new();
+    let vary = |numbers: &str, out: &str| {
+        let mut command = bench.command(&format!("report stands.json -o {out} --vary"));
+        command.arg(numbers);
+        super::ran(command)
+    };
+    let ran = vary("friction=0.1..0.9 --curve tilt", "curve.html");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let text = |name: &str| fs::read_to_string(bench.path(name)).expect("written");
+    let page = text("curve.html");
+    for words in [
+        "For which values: friction from 0.1 to 0.9",
+        "class=\"curve\"",
+        "drystone vary stands.json friction=0.1..0.9 --curve tilt",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    let ran = vary("friction=0.1..0.9 kernel=0..0.5", "map.md");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(
+        text("map.md").contains("each point of the border lies between two of them")
+            || text("map.md").contains("Each point of the border")
+    );
+    let ran = vary("frictionn=0.1..0.9", "wrong.md");
+    assert!(
+        ran.code == 2 && ran.err.contains("unknown key `frictionn`") && !bench.path("wrong.md").exists(),
+        "{}",
+        ran.err
+    );
+    let ran = vary("friction=0.1..0.9", "wrong.json");
+    assert!(ran.code == 2 && ran.err.contains("drystone vary --json"), "{}", ran.err);
+}
+
 /// The map on the page of questions.
 #[test]
 fn the_map_in_the_documentation_is_the_one_of_its_command() {
@@ -204,6 +297,8 @@ fn what_cannot_be_varied_is_refused_with_the_remedy() {
         ("stands.json nonsense=0..1", "unknown key `nonsense`"),
         ("stands.json friction=0..1 tilt>=1 tilt>=2", "only one goal"),
         ("stands.json friction=0..1 kernel=0..1 --curve tilt", "--curve is for one number"),
+        ("stands.json friction=0..1 --isolines tilt", "--isolines is for two numbers"),
+        ("stands.json blocks.lintell.weight=0..1", "blocks.lintell.weight=0: the scene has no entry"),
         ("stands.json friction=0..1 -o out.svg", "needs --curve"),
         ("stands.json friction=0..1 -o out.txt", ".json or .csv"),
         ("stands.json friction=0..1 --placement", "have no effect on vary"),

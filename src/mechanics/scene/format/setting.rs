@@ -97,7 +97,10 @@ pub(in crate::mechanics::scene) fn apply<'t>(
     for setting in settings {
         match setting.apply(tree, source.text) {
             Ok(path) => paths.push(path.to_string()),
-            Err(problem) => wrong.push(*problem),
+            Err(problem) => {
+                let message = format!("{setting}: {}", problem.message);
+                wrong.push(Problem { message, ..*problem });
+            }
         }
     }
     if !wrong.is_empty() {
@@ -232,6 +235,49 @@ fn item<'n>(tree: &Tree<'_>, list: &List, name: &'n str, path: &Path) -> Result<
     })
 }
 
+/// Returns a number of a JSON text by its name, as in a [`Setting`], or by its name in the last entry of the list `of_last`:
+/// the smallest one of an object of numbers, infinite for `"unbounded"`.
+pub(crate) fn number_in(json: &str, of_last: Option<&str>, name: &str) -> Option<f64> {
+    let tree = parse(json).ok()?;
+    let start = match of_last {
+        None => &tree.root,
+        Some(key) => match &entry(&tree, &tree.root, key)?.value.kind {
+            NodeKind::List(list) => tree.items(list).last()?,
+            _ => return None,
+        },
+    };
+    amount(&tree, at(&tree, start, name)?)
+}
+
+/// Returns the value with this name as seen from `node`.
+fn at<'n, 't>(tree: &'n Tree<'t>, node: &'n Node<'t>, name: &str) -> Option<&'n Node<'t>> {
+    match &node.kind {
+        _ if name.is_empty() => Some(node),
+        NodeKind::List(list) => {
+            let (number, rest) = item(tree, list, name, &Path::default()).ok()?;
+            at(tree, tree.items(list).get(number)?, rest)
+        }
+        NodeKind::Object(object) => {
+            let found = tree.entries(object).iter().filter_map(|entry| Some((entry, after(name, &entry.name)?)));
+            let (entry, rest) = found.min_by_key(|(_, rest)| rest.len())?;
+            at(tree, &entry.value, rest)
+        }
+        _ => None,
+    }
+}
+
+fn amount(tree: &Tree<'_>, node: &Node<'_>) -> Option<f64> {
+    match &node.kind {
+        NodeKind::Number(number) => Some(*number),
+        NodeKind::Text(word) if word == "unbounded" => Some(f64::INFINITY),
+        NodeKind::Object(sides) => {
+            let sides = tree.entries(sides).iter().map(|side| amount(tree, &side.value));
+            sides.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)
+        }
+        _ => None,
+    }
+}
+
 /// Turns gravity by an angle in degrees, positive anticlockwise.
 fn tilt(tree: &mut Tree<'_>, text: &str, degrees: f64) -> Result<(), Box<Problem>> {
     let pair = |tree: &Tree<'_>| {
@@ -306,6 +352,6 @@ fn quoted(text: &str) -> String {
 }
 
 fn unknown(path: &Path, message: String, help: String) -> Box<Problem> {
-    let problem = Problem::alone(Code::UnknownName, format!("--set: {message}"), help);
+    let problem = Problem::alone(Code::UnknownName, message, help);
     Box::new(Problem { path: path.to_string(), ..problem })
 }

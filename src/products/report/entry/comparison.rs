@@ -27,7 +27,7 @@ use crate::products::wording::failure::pair;
 use crate::products::wording::margin::headline;
 use crate::products::wording::number::{counted, digits, letter, listed, percent, tenths};
 use crate::products::wording::verdict;
-use crate::text::line;
+use crate::text::{capitalised, line};
 
 /// One of the two scenes of a comparison.
 #[derive(Clone, Copy, Debug)]
@@ -149,7 +149,7 @@ fn table(pairs: &[Pair<'_>]) -> Grid {
             if words.is_empty() { verdict.to_owned() } else { words }
         };
         let differs = match pair.sentence().split_once("; ") {
-            Some((_, differs)) if pair.differs() => capital(differs),
+            Some((_, differs)) if pair.differs() => capitalised(differs),
             _ => "Nothing.".to_owned(),
         };
         let title = line(&format!("({}) {title}", letter(pair.number)));
@@ -228,7 +228,7 @@ impl<'a> Pair<'a> {
         stated.extend(differs);
         stated.extend(self.settings.stated());
         stated.push(count_in_words(self.forces.changed().count(), self.forces.all.len()));
-        format!("{}.", capital(&line(&stated.join("; "))))
+        format!("{}.", capitalised(&line(&stated.join("; "))))
     }
 
     /// Returns the figures and tables of the step. On the first page of a report, `is_first`, the tables have all that
@@ -290,12 +290,6 @@ impl<'a> Pair<'a> {
         }
         plates
     }
-}
-
-fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    let first = letters.next().map(|c| c.to_uppercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
 }
 
 /// The forces at the interfaces that both frames have.

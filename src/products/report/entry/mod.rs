@@ -25,7 +25,7 @@ pub use row::{Row, Thumbnail};
 
 use crate::mechanics::analysis::{Analysis, Verdict};
 use crate::pictures::chart::ChartError;
-use crate::pictures::drawing::Theme;
+use crate::pictures::drawing::{Drawing, Theme};
 use crate::products::report::accuracy;
 use crate::products::result::{Layout, Timing, accuracy_json, to_json_of};
 use crate::products::study::Case;
@@ -116,6 +116,36 @@ impl Entry {
                 *part = drawn;
             }
         }
+    }
+
+    /// Adds a section with a picture of numbers that vary, and what it shows in words. `picture` has the drawing, and the same
+    /// one for readers whose system uses dark colours. `typed` has the arguments of `drystone vary`.
+    pub(crate) fn add_varied(
+        &mut self,
+        typed: &str,
+        [title, paragraph]: [String; 2],
+        picture: Option<(Drawing, Option<Drawing>)>,
+    ) {
+        let figure = picture.map(|(drawing, dark)| Figure {
+            caption: text::line(&title),
+            drawing,
+            dark,
+            touches: Vec::new(),
+            subject: None,
+        });
+        let figures = figure.into_iter().map(|figure| SheetPart::Figures(vec![figure]));
+        self.sections.push(Section {
+            letter: String::new(),
+            title: text::line(&format!("For which values: {title}")),
+            verdict: self.row.verdict,
+            begins_page: false,
+            parts: figures.chain([SheetPart::Text(text::line(&paragraph))]).collect(),
+        });
+        let word =
+            |word: &str| if word.starts_with("--") { format!(" {word}") } else { format!(" {}", text::shell(word)) };
+        let words = typed.split_whitespace().map(word).collect::<String>();
+        self.commands
+            .push(("numbers that vary".to_owned(), format!("drystone vary {}{words}", text::shell(&self.row.name))));
     }
 
     /// Adds an accuracy study to the report: a section with the chart of the study, and its numbers in the JSON.
