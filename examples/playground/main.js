@@ -5,6 +5,7 @@ import { fillExamples, loadExample } from "./examples.js";
 import { Figures } from "./figures.js";
 import { Frame } from "./frame.js";
 import { unpacked } from "./link.js";
+import { NumberSlider } from "./number.js";
 import { Outputs } from "./outputs.js";
 import { drawPlumb } from "./plumb.js";
 import { Sliders } from "./sliders.js";
@@ -23,6 +24,7 @@ const bench = new Workbench(byId("stage"), { solver, snap, forces: () => byId("s
 const { store, stage, controller } = bench;
 const toolbar = new Toolbar(store, stage, controller, { say, snap, redraw: () => bench.draw() });
 const sliders = new Sliders(byId("sliders"), store);
+const number = new NumberSlider(byId("sliders"), store, (name, range) => solver.vary(store.text, name, range, store.frame));
 const source = new Source({ area: byId("source"), gutter: byId("gutter"), list: byId("problems") }, store);
 const theme = new Theme(byId("theme"), () => figures.refresh());
 const steps = new Frame(store, byId);
@@ -63,6 +65,7 @@ const refine = afterPause(200, async () => {
   figures.refresh();
   const reply = await solver.margins(store.text, store.frame);
   if (reply) sliders.showMargins(reply.value?.frames?.at(-1)?.margins ?? null);
+  number.find();
 });
 
 bench.addEventListener("answer", (event) => {
@@ -74,6 +77,7 @@ bench.addEventListener("drawn", () => drawPlumb(byId("plumb"), store.scene));
 
 store.addEventListener("scene", (event) => {
   sliders.refresh();
+  number.refresh();
   byId("title").textContent = legible(typeof store.scene.title === "string" ? store.scene.title : "", 120);
   if (/** @type {CustomEvent} */ (event).detail?.from === "drag") return;
   source.refresh();
@@ -84,6 +88,8 @@ store.addEventListener("scene", (event) => {
 store.addEventListener("selection", () => {
   toolbar.refresh();
   steps.refresh();
+  number.refresh();
+  number.find();
   if (figures.kind === "capacity") figures.refresh();
 });
 store.addEventListener("history", () => {

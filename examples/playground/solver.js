@@ -107,6 +107,11 @@ export class Solver {
     return this.ask("slow", "margins", { task: "check", scene, options: { frame: frame + 1, margins: true, time_limit: PATIENCE } });
   }
 
+  /** Requests the values of a number for which one step stands. @param {string} scene @param {string} name @param {[number, number]} range @param {number} frame */
+  vary(scene, name, range, frame) {
+    return this.ask("slow", "vary", { task: "vary", scene, name, range, frame });
+  }
+
   /** @param {string} scene @param {any} options */
   figure(scene, options) {
     return this.ask("slow", "figure", { task: "figure", scene, options: { ...options, time_limit: PATIENCE } });

@@ -22,6 +22,21 @@ pub enum State {
     NoScene,
 }
 
+impl State {
+    /// All states.
+    pub const ALL: [State; 4] = [State::Holds, State::Fails, State::Undecided, State::NoScene];
+
+    /// Returns the word of this state in JSON and CSV.
+    pub fn word(self) -> &'static str {
+        match self {
+            State::Holds => "holds",
+            State::Fails => "fails",
+            State::Undecided => "undecided",
+            State::NoScene => "no_scene",
+        }
+    }
+}
+
 /// The result at one value, or at one pair of values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {

@@ -151,6 +151,21 @@ test("sliders change the scene, and their notes give the values for which it sta
   await close();
 });
 
+test("any number has a slider, whose band shows for which values it stands", async () => {
+  const { page, close } = await open({ example: "lintel" });
+  const choices = await page.locator("#number option").allTextContents();
+  assert.ok(choices.some((/** @type {string} */ words) => words.includes("force to the right")), choices.join(", "));
+  await page.selectOption("#number", "loads[0].force[0]");
+  await page.waitForFunction(() => /^stands from/.test(document.querySelector("#slider-number-note")?.textContent ?? ""));
+  const most = Number(await page.locator("#slider-number").getAttribute("max"));
+  await page.locator("#slider-number").evaluate((/** @type {HTMLInputElement} */ input, /** @type {number} */ value) => {
+    input.value = String(value);
+    input.dispatchEvent(new Event("input"));
+  }, most);
+  assert.equal((await sceneOf(page)).loads[0].force[0], most);
+  await close();
+});
+
 test("text and stage follow each other, and problems are marked at their lines", async () => {
   const { page, close } = await open({ example: "lintel" });
   const text = await page.inputValue("#source");

@@ -11,6 +11,7 @@ import { formatScene } from "../format.js";
 import { bounds, isConvex, pushOut, signedArea } from "../geometry.js";
 import { nearestNode, toMetres } from "../lattice.js";
 import { packed, unpacked } from "../link.js";
+import { inWords, nameOf, numbersOf, rangeOf, valueAt } from "../number.js";
 import { resolve } from "../scene.js";
 import { snapMove } from "../snap.js";
 
@@ -27,6 +28,23 @@ test("a scene that is written and read again is the same", async () => {
     const scene = await read(`scenes/${name}`);
     assert.deepEqual(JSON.parse(formatScene(scene)), scene, name);
   }
+});
+
+test("the numbers of a scene have names, values and ranges", () => {
+  const scene = { blocks: [{ id: "a", polygon: [[0, 0], [2, 0], [2, 1], [0, 1]], weight: 30 }], loads: [{ block: "a", force: [3, -4], at: [1, 1] }, { block: "b", force: [0, -1] }] };
+  const body = { list: "blocks", index: 0, id: "a" };
+  const numbers = numbersOf(scene, body);
+  assert.deepEqual(numbers.map(({ path }) => nameOf(path)), ["blocks[0].weight", "loads[0].at[0]", "loads[0].at[1]", "loads[0].force[0]", "loads[0].force[1]"]);
+  assert.deepEqual(numbers.map(({ path }) => valueAt(scene, path)), [30, 1, 1, 3, -4]);
+  assert.equal(numbersOf(scene, null).length, 6);
+  for (const number of numbers) {
+    const value = valueAt(scene, number.path);
+    const [low, high] = rangeOf(number, value);
+    assert.ok(low <= value && value <= high && low < high, `${number.label}: ${low} to ${high}`);
+  }
+  assert.equal(rangeOf(numbers[0], 30)[0], 0);
+  assert.equal(inWords([{ state: "holds", from: 0, to: 1 }, { state: "fails", from: 1.01, to: 2 }]), "stands from 0 to 1");
+  assert.equal(inWords([{ state: "fails", from: 0, to: 1 }]), "stands at no value of this slider");
 });
 
 test("hexagons of the lattice have their outline", async () => {

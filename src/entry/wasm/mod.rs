@@ -16,9 +16,10 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use request::{PageArgs, ResultArgs};
 
 use crate::entry::request::{Refused, read_json};
-use crate::mechanics::analysis::Analysis;
+use crate::mechanics::analysis::{self, Analysis, Verdict, verdicts};
 use crate::mechanics::scene::format::SceneFile;
-use crate::mechanics::scene::{Scene, SceneError};
+use crate::mechanics::scene::{Scene, SceneError, Setting};
+use crate::mechanics::vary::{Found, Interval, Range, State, intervals, scan};
 use crate::pictures::output::attachment::file_in;
 use crate::products::figure::Kind;
 use crate::products::result::{imported_json, problem_list, quoted, remark_list};
@@ -136,6 +137,41 @@ pub fn problems(scene: &str) -> String {
         Err(error) => Refusal::from(error).problems,
     }
 }
+
+/// Finds for which values of a number a step stands, as `drystone vary` does with three digits. `name` is the name of the
+/// number, as `--set` takes it, such as `loads[0].at[0]`, and `frame` counts the steps from 1. Returns a JSON list of
+/// intervals `{ "state", "from", "to" }`; `state` is holds, fails, undecided or no_scene.
+///
+/// # Errors
+/// Returns the problems of the scene as it is given, or a message if it has no such step or the range is empty.
+#[wasm_bindgen]
+pub fn vary(scene: &str, name: &str, from: f64, to: f64, frame: usize) -> Result<String, Refusal> {
+    let steps = Scene::from_json(scene)?.frames().len();
+    if !(1..=steps).contains(&frame) {
+        return Err(format!("frame must be a number from 1 to {steps}").into());
+    }
+    if !(from < to && from.is_finite() && to.is_finite()) {
+        return Err("from must be less than to".to_owned().into());
+    }
+    let state = |at: &[f64]| {
+        let setting = format!("{name}={}", at[0]).parse::<Setting>();
+        let changed = setting.ok().and_then(|own| Scene::from_slice_changed(scene.as_bytes(), None, &[own]).ok());
+        match changed.map(|(scene, _)| verdicts(&scene, &analysis::Options::default())[frame - 1]) {
+            Some(Verdict::Stable) => State::Holds,
+            Some(Verdict::Unstable) => State::Fails,
+            Some(Verdict::Undecided) => State::Undecided,
+            None => State::NoScene,
+        }
+    };
+    let range = Range { name: name.to_owned(), from, to, is_whole: false };
+    let samples = scan(&range, VARIED, 3, |at| Found { state: state(at), value: None, words: String::new() });
+    let entry =
+        |own: Interval| format!("{{\"state\":\"{}\",\"from\":{},\"to\":{}}}", own.state.word(), own.from, own.to);
+    Ok(format!("[{}]", intervals(&samples).into_iter().map(entry).collect::<Vec<_>>().join(",")))
+}
+
+/// The number of values that [`vary`] examines before it finds the ends.
+const VARIED: usize = 17;
 
 /// Returns the text of the scene file that a PNG or a PDF of `drystone render` carries.
 ///

@@ -205,13 +205,12 @@ pub(crate) fn map(question: &Question, map: &Map, field: Option<&Field>, theme: 
     let [x, y] = &map.ranges;
     let ranges = [x.shown(), y.shown()];
     let mut plane = Plane::new(theme, width, ranges, widest(y.from, y.to, theme));
-    let states = [State::Holds, State::Fails, State::Undecided, State::NoScene];
     let [(left, right), (low, high)] = ranges;
     let whole = vec![[left, low], [right, low], [right, high], [left, high]];
     plane.fill(&[whole], colour(theme, State::Fails), question.word(State::Fails));
     let mut border = Outline::default();
     let mut keys: Vec<Key<'_>> = Vec::new();
-    for state in states {
+    for state in State::ALL {
         let rings = map.region(state);
         if rings.is_empty() {
             continue;

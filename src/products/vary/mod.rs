@@ -90,8 +90,7 @@ impl Question {
         let [x, y] = &map.ranges;
         let range = |range: &Range| format!("{} from {} to {}", range.name, digits(range.from), digits(range.to));
         let count = |state: State| map.samples.iter().filter(|sample| sample.found.state == state).count();
-        let states = [State::Holds, State::Fails, State::Undecided, State::NoScene];
-        let counts = states.into_iter().filter(|state| count(*state) > 0);
+        let counts = State::ALL.into_iter().filter(|state| count(*state) > 0);
         let counts: Vec<String> = counts.map(|state| format!("{} {}", count(state), self.word(state))).collect();
         vec![
             format!("{}: {}, {}", self.name, range(x), range(y)),
@@ -112,7 +111,7 @@ impl Question {
     pub(crate) fn json(&self, range: &Range, samples: &[Sample]) -> Value {
         let mut text = self.head(std::slice::from_ref(range));
         let list = intervals(samples).into_iter().map(|interval| {
-            json!({ "state": state_key(interval.state), "from": interval.from, "to": interval.to, "words": interval.words })
+            json!({ "state": interval.state.word(), "from": interval.from, "to": interval.to, "words": interval.words })
         });
         text["is_interval"] = json!(self.is_interval);
         text["intervals"] = json!(list.collect::<Vec<_>>());
@@ -160,7 +159,7 @@ pub(crate) fn csv(question: &Question, ranges: &[Range], samples: &[Sample]) -> 
         let value =
             sample.found.value.filter(|value| value.is_finite()).map_or(String::new(), |value| value.to_string());
         let value = question.ordinate.iter().map(|_| value.clone());
-        rows.push(numbers.chain([state_key(sample.found.state).to_owned()]).chain(value).collect::<Vec<_>>().join(","));
+        rows.push(numbers.chain([sample.found.state.word().to_owned()]).chain(value).collect::<Vec<_>>().join(","));
     }
     rows.join("\n") + "\n"
 }
@@ -168,19 +167,9 @@ pub(crate) fn csv(question: &Question, ranges: &[Range], samples: &[Sample]) -> 
 fn entries(samples: &[Sample]) -> Value {
     let entry = |sample: &Sample| {
         let value = sample.found.value.filter(|value| value.is_finite());
-        json!({ "at": sample.at, "state": state_key(sample.found.state), "value": value })
+        json!({ "at": sample.at, "state": sample.found.state.word(), "value": value })
     };
     json!(samples.iter().map(entry).collect::<Vec<_>>())
-}
-
-/// Returns the word of a state in JSON and CSV.
-pub(crate) fn state_key(state: State) -> &'static str {
-    match state {
-        State::Holds => "holds",
-        State::Fails => "fails",
-        State::Undecided => "undecided",
-        State::NoScene => "no_scene",
-    }
 }
 
 /// Writes the values of an interval.

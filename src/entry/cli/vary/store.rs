@@ -13,7 +13,6 @@ use serde_json::{Value, json};
 
 use crate::entry::cli::error::CliError;
 use crate::mechanics::vary::{Found, State};
-use crate::products::vary::state_key;
 use crate::read::file;
 
 /// The values as bits, whether words are wanted, and whether the number of the result is.
@@ -81,7 +80,7 @@ impl Store {
             Some(value) if value.is_infinite() => json!("unbounded"),
             value => json!(value),
         };
-        let state = state_key(found.state);
+        let state = found.state.word();
         let line = json!([at, has_words, has_number, state, value, found.words]).to_string() + "\n";
         if let Ok(mut file) = self.file.lock() {
             let _ = file.write_all(line.as_bytes());
@@ -93,8 +92,7 @@ impl Store {
 fn read(line: &str) -> Option<(Key, Found)> {
     let entry: Value = serde_json::from_str(line).ok()?;
     let at: Option<Vec<f64>> = entry[0].as_array()?.iter().map(Value::as_f64).collect();
-    let states = [State::Holds, State::Fails, State::Undecided, State::NoScene];
-    let state = states.into_iter().find(|state| Some(state_key(*state)) == entry[3].as_str())?;
+    let state = State::ALL.into_iter().find(|state| Some(state.word()) == entry[3].as_str())?;
     let value = if entry[4] == "unbounded" { Some(f64::INFINITY) } else { entry[4].as_f64() };
     let words = entry[5].as_str()?.to_owned();
     Some((key(&at?, entry[1].as_bool()?, entry[2].as_bool()?), Found { state, value, words }))
