@@ -23,6 +23,7 @@ PROOF = {"frame": index, "verdict": word, "forces?": FORCES, "motion?": MOTION, 
 CHANGED = {"load_factor?": number, "kernel?": number, "force?": (index, LOAD)}
 ERRORS = {"size": number, "scales?": SPARSE, "pattern?": SPARSE}
 CHANGE = CHANGED | {"gravity?": pair, "friction?": number, "friction_factor?": number}
+CHANGE |= {"locked?": lambda value: value in ("turning", "sliding")}
 CHANGE |= {"grip_limits?": [LIMITS], "errors?": ERRORS, "loads?": [(index, number, [LOAD])]}
 CONTACT = {"bodies": (index, index), "points": [pair], "normal?": pair, "friction": number, "fixed?": flag}
 GRIP = {"robot": word, "body": index, "at?": pair, "limits": LIMITS}
@@ -82,6 +83,22 @@ def with_points(frame, bodies):
     """The frame with the points of grips and motions: without a point, the one at which the weight of the body acts."""
     given = lambda items: [{"at": bodies[item["body"]]["centre"], **item} for item in items or []]
     return {**frame, "grips": given(frame.get("grips")), "motion": frame["motion"] and given(frame["motion"])}
+
+def with_locks(frame, bodies):
+    """The frame with what cannot turn held by grips that carry any torque, and what cannot slide by smooth contacts."""
+    if frame.get("locked") == "turning":
+        grips = [{"body": k, "at": bodies[k]["centre"], "limits": [0, 0, None]} for k in frame["placed"]]
+        return {**frame, "grips": frame["grips"] + grips}
+    if frame.get("locked") != "sliding":
+        return frame
+    joints, locks = [{**c, "friction": 0} for c in frame["contacts"]], []
+    for c in joints:
+        (x, y), (far_x, far_y) = c["points"][0], c["points"][-1]
+        tx, ty = (-c["normal"][1], c["normal"][0]) if "normal" in c else (far_x - x, far_y - y)
+        # The middle is rounded as the coordinates of the file are.
+        at = [[Fraction(float(x) + float(far_x - x) / 2), Fraction(float(y) + float(far_y - y) / 2)]]
+        locks += [{**c, "points": at, "normal": n} for n in ((tx, ty), (-tx, -ty))]
+    return {**frame, "contacts": joints + locks}
 
 def run(check, paths):
     """Whether files are certificates of which everything is proved. A file that is no certificate proves nothing."""

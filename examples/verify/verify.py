@@ -6,7 +6,7 @@ import sys
 from fractions import Fraction
 from itertools import chain, combinations, product
 from errors import additions, inset, is_valid, pattern
-from shape import mu, run, with_loads, with_points
+from shape import mu, run, with_loads, with_locks, with_points
 from vectors import REST, apart2, cross, dot, left, plus, solve, sub, threes, wrench
 
 TAN_OF_ANGLE = Fraction(1, 100)  # the largest angle between a contact and the edges that it lies at
@@ -190,6 +190,7 @@ def main(file):
         frame = {**frames[entry["frame"]], "forces": None, "motion": None, "still": [], **change, **entry}
         own, frame = with_loads(file, change), with_points(frame, file["bodies"])
         faults = form(own, frame) or ([] if file["listed"] else [*places(own, frame, farthest), *missing(own, frame)])
+        frame = with_locks(frame, file["bodies"])
         faults = faults or (list(check(own["bodies"], frame)) if frame.get(proof) else ["no proof"])
         is_exact &= not faults
         name = f", {just}{entry['of']} ({json.dumps(change, default=float)})" if change else ""

@@ -1,7 +1,7 @@
 //! [`Limits`]: proofs on both sides of each end of a margin, and of each corner and edge of a capacity.
 
 use super::stand::slack_forces;
-use super::{Certificate, Change, FrameForm, LimitForm, LoadForm};
+use super::{Certificate, Change, FrameForm, LimitForm, LoadForm, Locked};
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
 use crate::mechanics::analysis::{
     Cases, End, FrameAnalysis, Interval, LoadCapacity, MarginKind, Verdict, extremes, with_grip,
@@ -9,7 +9,7 @@ use crate::mechanics::analysis::{
 use crate::mechanics::proof::Motion;
 use crate::mechanics::scene::Scene;
 use crate::mechanics::solve::is_late;
-use crate::mechanics::statics::assembly::{Assembly, load_about};
+use crate::mechanics::statics::assembly::{Assembly, MIDDLE_THIRD, load_about};
 
 /// How far from an end the two sides are proved, relative to its size: the first distance at which both the numbers of
 /// the margin and the exact correction leave room.
@@ -77,6 +77,18 @@ impl Limits<'_> {
             MarginKind::LoadFactor => (Change { load_factor: Some(value), ..same }, given.with_load_factor(value)),
             MarginKind::FrictionFactor => {
                 (Change { friction_factor: Some(value), ..same }, given.with_friction_factor(value))
+            }
+            MarginKind::Sliding | MarginKind::Overturning => {
+                let (locked, structure): (Locked, fn(Assembly) -> Assembly) = match kind {
+                    MarginKind::Sliding => (Locked::Turning, Assembly::without_turning),
+                    _ => (Locked::Sliding, Assembly::without_sliding),
+                };
+                let change = Change { load_factor: Some(value), locked: Some(locked), ..same };
+                (change, structure(given).with_load_factor(value))
+            }
+            MarginKind::MiddleThird => {
+                let kernel = Some(self.bare.kernel.max(MIDDLE_THIRD));
+                (Change { load_factor: Some(value), kernel, ..same }, given.with_middle_third().with_load_factor(value))
             }
             MarginKind::Robots => (same, given),
         }

@@ -302,6 +302,9 @@ pub struct Change {
     /// The safety kernel.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kernel: Option<f64>,
+    /// What cannot move.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub locked: Option<Locked>,
     /// A further load on a body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force: Option<(usize, LoadForm)>,
@@ -316,7 +319,37 @@ pub struct Change {
     pub grip_limits: Option<Vec<[Option<f64>; 3]>>,
 }
 
+/// What cannot move in a changed frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Locked {
+    /// No body can turn: a grip on each, after the others, carries any torque and no force.
+    Turning,
+    /// No contact can slide: its μ is 0, and two contacts with one point at the middle of its points, after all others, have
+    /// t and −t as their normals, and μ = 0.
+    Sliding,
+}
+
 impl ContactForm {
+    /// Returns the two smooth contacts that lock this one against sliding.
+    fn locks(&self) -> [ContactForm; 2] {
+        let point = |at: usize| self.points[at.min(self.points.len() - 1)];
+        let ([x, y], [far_x, far_y]) = (point(0), point(1));
+        let [tx, ty] = match self.normal {
+            Some([nx, ny]) => [-ny, nx],
+            None => [far_x - x, far_y - y],
+        };
+        let lock = |normal: Pair| ContactForm {
+            points: vec![[x + (far_x - x) / 2.0, y + (far_y - y) / 2.0]],
+            normal: Some(normal),
+            friction: 0.0,
+            fixed: true,
+            factor: None,
+            ..self.clone()
+        };
+        [lock([tx, ty]), lock([-tx, -ty])]
+    }
+
     /// Returns the friction coefficient times its factor.
     fn exact_mu<N: Number>(&self) -> N {
         let friction = N::exact(self.friction);
@@ -346,6 +379,19 @@ impl Change {
         }
         for (grip, limits) in changed.grips.iter_mut().zip(self.grip_limits.iter().flatten()) {
             grip.limits = *limits;
+        }
+        match self.locked {
+            Some(Locked::Turning) => {
+                let held =
+                    |body| GripForm { robot: String::new(), body, at: None, limits: [Some(0.0), Some(0.0), None] };
+                changed.grips.extend(frame.placed.iter().copied().map(held));
+            }
+            Some(Locked::Sliding) => {
+                let locks = frame.contacts.iter().flat_map(ContactForm::locks);
+                changed.contacts.iter_mut().for_each(|contact| contact.friction = 0.0);
+                changed.contacts.extend(locks);
+            }
+            None => {}
         }
         changed
     }

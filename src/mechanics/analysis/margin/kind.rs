@@ -5,7 +5,8 @@
 //! needs a name in [`MarginKind`] and its declaration in [`ABOUT`].
 
 use super::path::{Path, Predictor};
-use super::trial::{Setting, Trial};
+use super::trial::{Setting, Trial, has_factored_loads, largest_factored_friction};
+use crate::mechanics::statics::assembly::Assembly;
 use crate::text::Word;
 
 /// A kind of margin: the parameter that is varied, alone, until the frame falls.
@@ -32,6 +33,15 @@ pub enum MarginKind {
     /// smooth. Its interval has no upper end. The margin is the lower end. One divided by it is the factor of safety of
     /// geotechnics. A frame without friction has no such interval.
     FrictionFactor,
+    /// The factor on the listed loads, at least 0, if no block can turn: each is held by a torque of any size, but by no
+    /// force. The upper end is the margin: the factor of safety against sliding.
+    Sliding,
+    /// The factor on the listed loads, at least 0, if no joint can slide, smooth ones neither. The upper end is the margin:
+    /// the factor of safety against overturning.
+    Overturning,
+    /// The factor on the listed loads, at least 0, with which forces exist that lie in the middle third of every joint. The
+    /// upper end is the margin: the loads of the permissible state.
+    MiddleThird,
     /// The limits of every robot that holds a block, each varied alone. The lower ends are the margins.
     Robots,
 }
@@ -64,7 +74,9 @@ pub(crate) struct About {
     /// The present value; `None` if it depends on the scene.
     pub present: Option<f64>,
     /// Whether the parameter has a meaning for a component; `None` if it has one for every component.
-    pub(super) applies: Option<fn(&Trial) -> bool>,
+    pub(super) applies: Option<fn(&Assembly) -> bool>,
+    /// The structure of which the margin is that of another one: the same bodies and loads, with other conditions.
+    pub(crate) structure: Option<fn(Assembly) -> Assembly>,
     /// The change of a component for a value of the parameter.
     pub(in crate::mechanics::analysis) setting: fn(f64) -> Setting,
     /// The loads that the parameter adds per unit, at a value; `None` if the loads do not depend on it.
@@ -86,11 +98,29 @@ impl About {
         ends: [true; 2],
         present: None,
         applies: None,
+        structure: None,
         setting: |_| Setting::default(),
         growth: None,
         path: |_, setting| Path::new(Predictor::Plane, setting),
     };
 }
+
+/// A factor on the loads.
+const LOADED: About = About {
+    limited: ["least load factor", "load factor"],
+    condition: "if requested, with loads",
+    ends: [false, true],
+    present: Some(1.0),
+    applies: Some(has_factored_loads),
+    setting: |loads| Setting { loads, ..Setting::default() },
+    growth: Some(|_| Setting { loads: 1.0, ..Setting::UNLOADED }),
+    path: |trial, setting| {
+        let load_ratio = trial.weights_to_loads();
+        let (typical_small, typical_large) = (load_ratio.min(1.0), load_ratio.max(1.0));
+        Path { typical_small, typical_large, load_ratio, ..Path::new(Predictor::Plane, setting) }
+    },
+    ..About::PLAIN
+};
 
 /// The declarations of all kinds, in the order of [`MarginKind::ALL`].
 static ABOUT: [About; MarginKind::ALL.len()] = [
@@ -177,26 +207,14 @@ static ABOUT: [About; MarginKind::ALL.len()] = [
         words: ["load_factor", "load-factor"],
         name: "factor on the loads",
         notice: ["the least factor on the loads", "the largest factor on the loads"],
-        limited: ["least load factor", "load factor"],
         keys: [
             "largest factor on the loads; null also without loads",
             "factor on the loads, at least 0; 1 stands for the loads of the scene",
             "they exclude all values",
             "just beyond the largest factor on the loads",
         ],
-        condition: "if requested, with loads",
         at: "this load",
-        ends: [false, true],
-        present: Some(1.0),
-        applies: Some(|trial| trial.has_factored_loads()),
-        setting: |loads| Setting { loads, ..Setting::default() },
-        growth: Some(|_| Setting { loads: 1.0, ..Setting::UNLOADED }),
-        path: |trial, setting| {
-            let load_ratio = trial.weights_to_loads();
-            let (typical_small, typical_large) = (load_ratio.min(1.0), load_ratio.max(1.0));
-            Path { typical_small, typical_large, load_ratio, ..Path::new(Predictor::Plane, setting) }
-        },
-        ..About::PLAIN
+        ..LOADED
     },
     About {
         words: ["friction_factor", "friction-factor"],
@@ -213,23 +231,77 @@ static ABOUT: [About; MarginKind::ALL.len()] = [
         at: "this friction",
         ends: [true, false],
         present: Some(1.0),
-        applies: Some(|trial| trial.largest_factored_friction() > 0.0),
+        applies: Some(|component| largest_factored_friction(component) > 0.0),
         setting: |friction_factor| Setting { friction_factor, ..Setting::default() },
         path: |trial, setting| Path::threshold(MarginKind::MAX_FRICTION / trial.largest_factored_friction(), setting),
         ..About::PLAIN
+    },
+    About {
+        words: ["sliding", "sliding"],
+        name: "factor on the loads if nothing can turn (sliding)",
+        notice: [
+            "the least factor on the loads if nothing can turn",
+            "the largest factor on the loads if nothing can turn",
+        ],
+        keys: [
+            "largest factor on the loads if no block can turn: the factor of safety against sliding; null also without loads",
+            "factor on the loads if no block can turn, at least 0",
+            "they exclude all values",
+            "just beyond the largest factor if no block can turn",
+        ],
+        at: "this load, if nothing can turn",
+        structure: Some(Assembly::without_turning),
+        ..LOADED
+    },
+    About {
+        words: ["overturning", "overturning"],
+        name: "factor on the loads if nothing can slide (overturning)",
+        notice: [
+            "the least factor on the loads if nothing can slide",
+            "the largest factor on the loads if nothing can slide",
+        ],
+        keys: [
+            "largest factor on the loads if no joint can slide, smooth ones neither: the factor of safety against overturning; null also without loads",
+            "factor on the loads if no joint can slide, at least 0",
+            "they exclude all values",
+            "just beyond the largest factor if no joint can slide",
+        ],
+        at: "this load, if nothing can slide",
+        structure: Some(Assembly::without_sliding),
+        ..LOADED
+    },
+    About {
+        words: ["middle_third", "middle-third"],
+        name: "factor on the loads within the middle third of all joints",
+        notice: [
+            "the least factor on the loads within the middle third",
+            "the largest factor on the loads within the middle third",
+        ],
+        keys: [
+            "largest factor on the loads with which forces in the middle third of every joint balance the frame; null also without loads",
+            "factor on the loads within the middle third of every joint, at least 0",
+            "they exclude all values",
+            "just beyond the largest factor, if forces keep to the middle third",
+        ],
+        at: "this load, within the middle third",
+        structure: Some(Assembly::with_middle_third),
+        ..LOADED
     },
     About { words: ["robots", "robots"], at: "this limit", ends: [true, false], ..About::PLAIN },
 ];
 
 impl MarginKind {
     /// All margins.
-    pub const ALL: [MarginKind; 7] = [
+    pub const ALL: [MarginKind; 10] = [
         MarginKind::Friction,
         MarginKind::Tilt,
         MarginKind::HorizontalLoad,
         MarginKind::Kernel,
         MarginKind::LoadFactor,
         MarginKind::FrictionFactor,
+        MarginKind::Sliding,
+        MarginKind::Overturning,
+        MarginKind::MiddleThird,
         MarginKind::Robots,
     ];
 
@@ -269,9 +341,15 @@ impl MarginKind {
         Word::from_word(word)
     }
 
-    /// True if a sensitivity can be computed for this margin: for every margin except the limits of robots.
+    /// True if a sensitivity can be computed for this margin: for every margin of the structure as it is, except the limits
+    /// of robots.
     pub fn has_sensitivity(self) -> bool {
-        self != MarginKind::Robots
+        self != MarginKind::Robots && self.about().structure.is_none()
+    }
+
+    /// True if the parameter is a factor on the listed loads.
+    pub(crate) fn multiplies_loads(self) -> bool {
+        self == MarginKind::LoadFactor || self.about().structure.is_some()
     }
 
     /// Returns the name of this margin in results, such as `load_factor`.

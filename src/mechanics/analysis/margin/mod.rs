@@ -157,7 +157,9 @@ fn intersect(components: &[(&Part, &Margins)], kinds: MarginKinds) -> Margins {
         let all = || if kind.is_signed() { Interval::UNBOUNDED } else { Interval::FROM_ZERO };
         // Some parameters have a meaning only for some components. Another component stands at every value or at none.
         let is_partial = kind.about().applies.is_some();
-        let has_meaning = !is_partial || components.iter().any(|(_, own)| own.of(kind).is_some());
+        let applies =
+            |(part, _): &(&Part, &Margins)| kind.about().applies.is_none_or(|applies| applies(part.component));
+        let has_meaning = !is_partial || components.iter().any(applies);
         let each = components.iter().filter_map(|(part, own)| match own.of(kind) {
             None => is_partial.then(|| part.at_present(all())),
             known => known.cloned(),

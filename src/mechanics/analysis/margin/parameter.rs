@@ -23,7 +23,7 @@ use super::margins::{Margin, Margins};
 use super::path::{MAX_VALUE, Path, Predictor};
 use super::search::Bracket;
 use super::threshold::threshold;
-use super::trial::{LimitChange, Setting, Trial};
+use super::trial::{LimitChange, Setting, Trial, has_factored_loads};
 use crate::mechanics::analysis::Verdict;
 use crate::mechanics::program::{Program, Scale};
 use crate::mechanics::proof::Forces;
@@ -50,7 +50,11 @@ pub(super) fn margins(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_
     }
     for kind in MarginKind::of_frame().filter(|kind| kinds.has(*kind) && !kind.is_signed()) {
         let about = kind.about();
-        if about.applies.is_some_and(|applies| !applies(trial)) {
+        if let Some(structure) = about.structure {
+            each.push(Margin::new(kind, None, of_structure(trial, kind, structure)));
+            continue;
+        }
+        if about.applies.is_some_and(|applies| !applies(trial.component())) {
             continue;
         }
         let path = kind.path(trial);
@@ -66,6 +70,21 @@ pub(super) fn margins(trial: &mut Trial, stands: bool, kinds: MarginKinds, with_
     }
     each.extend(robots);
     Margins { kinds, each, notes: Vec::new() }
+}
+
+/// Returns the interval of the load factor of a changed structure with the loads of a component. Without loads, it stands at
+/// every factor or at none.
+fn of_structure(trial: &mut Trial, kind: MarginKind, structure: fn(Assembly) -> Assembly) -> Interval {
+    let changed = structure(trial.component().clone());
+    let mut own = Trial::new(&changed, None);
+    let (verdict, motion) = own.decide(&Setting::default());
+    let path = kind.path(&own);
+    let interval = match has_factored_loads(&changed) {
+        true => linear(&mut own, &path, 1.0, verdict == Verdict::Stable),
+        false => Interval::of_verdict(verdict, &motion, Interval::FROM_ZERO),
+    };
+    trial.decided_count += own.decided_count;
+    interval
 }
 
 /// Returns the largest load factor with which a component stands. `unloaded` balance it with a load factor of 0.

@@ -156,8 +156,12 @@ impl<'a> Trial<'a> {
 
     /// Returns the largest friction coefficient that a factor on the friction multiplies; 0 without one.
     pub fn largest_factored_friction(&self) -> f64 {
-        let factored = self.original.contacts.iter().filter(|contact| contact.is_factored);
-        factored.map(|contact| contact.friction).fold(0.0, f64::max)
+        largest_factored_friction(self.original)
+    }
+
+    /// Returns the unchanged component.
+    pub fn component(&self) -> &'a Assembly {
+        self.original
     }
 
     /// Returns the friction coefficient of the component if all its contacts have the same, and a factor multiplies all.
@@ -165,11 +169,6 @@ impl<'a> Trial<'a> {
         let largest = self.largest_friction();
         let is_same = |contact: &AssemblyContact| contact.is_factored && contact.friction == largest;
         self.original.contacts.iter().all(is_same).then_some(largest)
-    }
-
-    /// True if the load factor multiplies some load of the component.
-    pub fn has_factored_loads(&self) -> bool {
-        self.original.bodies.iter().any(|body| body.listed != LoadVector::ZERO)
     }
 
     /// True if some robot has a limit other than 0 and infinity. The forces at the limit of stability are then not
@@ -322,6 +321,17 @@ impl<'a> Trial<'a> {
     fn changed(&self, setting: &Setting) -> Assembly {
         setting.apply(self.original)
     }
+}
+
+/// Returns the largest friction coefficient of a component that a factor on the friction multiplies; 0 without one.
+pub(super) fn largest_factored_friction(component: &Assembly) -> f64 {
+    let factored = component.contacts.iter().filter(|contact| contact.is_factored);
+    factored.map(|contact| contact.friction).fold(0.0, f64::max)
+}
+
+/// True if the load factor multiplies some load of a component.
+pub(super) fn has_factored_loads(component: &Assembly) -> bool {
+    component.bodies.iter().any(|body| body.listed != LoadVector::ZERO)
 }
 
 /// True if the scene lists a load on some body of a component.

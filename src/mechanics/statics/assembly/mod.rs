@@ -38,6 +38,9 @@ pub struct Assembly {
     pub length: f64,
 }
 
+/// The safety kernel that keeps forces within the middle third of each joint.
+pub const MIDDLE_THIRD: f64 = 2.0 / 3.0;
+
 /// A load on a body: a force at the body's centroid, and a moment about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadVector {
@@ -260,6 +263,61 @@ impl Assembly {
     pub fn with_kernel(mut self, kernel: f64) -> Assembly {
         for contact in &mut self.contacts {
             contact.points = application_points(contact.ends, kernel);
+        }
+        self
+    }
+
+    /// Locks all joints against sliding: two smooth contacts at the middle of each joint, with its tangent and the opposite
+    /// direction as normals, carry any friction force, and allow no slip. The joint may still open, and the loads decide.
+    pub fn without_sliding(mut self) -> Assembly {
+        // No two contacts have the same number.
+        let first = self.contacts.iter().map(|contact| contact.interface + 1).max().unwrap_or(0);
+        let locks = self.contacts.iter().enumerate().flat_map(|(number, contact)| {
+            let middle = contact.ends[0] + (contact.ends[1] - contact.ends[0]) / 2.0;
+            let at = [middle; 2];
+            let lock = |side, normal| AssemblyContact {
+                interface: first + 2 * number + side,
+                kind: ContactKind::Corner,
+                ends: at,
+                points: at,
+                normal,
+                friction: 0.0,
+                is_factored: false,
+                ..*contact
+            };
+            [lock(0, contact.tangent()), lock(1, -contact.tangent())]
+        });
+        let locks: Vec<AssemblyContact> = locks.collect();
+        self = self.with_friction(0.0);
+        self.contacts.extend(locks);
+        self
+    }
+
+    /// Locks all bodies against turning: a grip on each carries any torque, but no force.
+    pub fn without_turning(mut self) -> Assembly {
+        let limits = Limits { fx: 0.0, fy: 0.0, torque: f64::INFINITY };
+        let first = self.grips.iter().map(|grip| grip.hold + 1).max().unwrap_or(0);
+        let bodies = self.bodies.iter().enumerate();
+        let locks = bodies.map(|(body, own)| AssemblyGrip {
+            hold: first + body,
+            robot: RobotId(first + body),
+            body,
+            at: own.centroid,
+            limits,
+        });
+        let locks: Vec<AssemblyGrip> = locks.collect();
+        self.grips.extend(locks);
+        self
+    }
+
+    /// Keeps the forces within the middle third of each joint, unless its safety kernel keeps them closer to the middle.
+    pub fn with_middle_third(mut self) -> Assembly {
+        for contact in &mut self.contacts {
+            let third = application_points(contact.ends, MIDDLE_THIRD);
+            let width = |points: [Point; 2]| (points[1] - points[0]).norm();
+            if width(third) < width(contact.points) {
+                contact.points = third;
+            }
         }
         self
     }

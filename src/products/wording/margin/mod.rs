@@ -9,7 +9,8 @@ mod governing;
 pub use governing::headline;
 pub use governing::{Governing, OtherFriction, governing};
 
-use super::number::{amount, digits, three_down, three_up};
+use super::failure::shortened;
+use super::number::{amount, digits, listed, three_down, three_up};
 use super::question;
 use crate::geometry::range_of;
 use crate::mechanics::analysis::{
@@ -202,7 +203,7 @@ impl StatedMargin<'_> {
             Interval::Between { low, high } => (low, high),
             Interval::Empty(excluded) => {
                 let none = match self.kind {
-                    MarginKind::LoadFactor => "stands under no multiple of its loads".to_owned(),
+                    kind if kind.multiplies_loads() => "stands under no multiple of its loads".to_owned(),
                     MarginKind::FrictionFactor => format!("stands with no multiple of {}", self.multiplied),
                     _ => "stands at no value".to_owned(),
                 };
@@ -246,7 +247,7 @@ impl StatedMargin<'_> {
         let value = |value: f64| self.end(value, true);
         // An interval that is shorter than the rounding is one value.
         let is_one = |low: f64, high: f64| self.value(low) == self.value(high);
-        if let MarginKind::LoadFactor | MarginKind::FrictionFactor = self.kind {
+        if self.kind.multiplies_loads() || self.kind == MarginKind::FrictionFactor {
             let factor = match (least, most) {
                 (None, None) => "any factor".to_owned(),
                 (None, Some(high)) => format!("at most {}", value(high)),
@@ -321,10 +322,20 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
         };
         let position = match kind {
             MarginKind::Friction => friction_position(interval, present, position),
+            // The frame as it is may stand where the changed structure falls, and the other way round.
+            _ if kind.about().structure.is_some() => match interval {
+                Interval::Undecided => Position::Unknown,
+                interval if interval.contains(1.0) => Position::Inside,
+                _ => Position::Outside,
+            },
             _ => position,
         };
         let governed = governed(frame_analysis, interval, *conditions);
-        let name = kind.about().name.to_owned();
+        let smooth = || smooth_joints(scene, frame_analysis);
+        let name = match kind {
+            MarginKind::Overturning => format!("{}{}", kind.about().name, smooth()),
+            _ => kind.about().name.to_owned(),
+        };
         let multiplied = match kind {
             MarginKind::FrictionFactor => question::factored_friction(scene),
             _ => "its loads".to_owned(),
@@ -349,6 +360,17 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
     }
     list
 }
+
+/// Names the smooth joints, which cannot slide either where no joint can: `, smooth 1 / wall too`. Empty without them.
+fn smooth_joints(scene: &Scene, found: &FrameAnalysis) -> String {
+    let smooth = found.contacts.iter().filter(|contact| contact.interface.friction == 0.0);
+    let names = smooth.map(|contact| contact.interface.bodies.map(|body| text::line(scene.name(body))).join(" / "));
+    let names = shortened(names.collect(), MAX_SMOOTH_NAMED);
+    if names.is_empty() { String::new() } else { format!(", smooth {} too", listed(&names)) }
+}
+
+/// At most this many smooth joints are named.
+const MAX_SMOOTH_NAMED: usize = 3;
 
 /// Names the conditions that decide the ends of an interval. An end of the range of the parameter, such as friction 0, is
 /// decided by none.
@@ -395,7 +417,9 @@ fn most_important(list: &[StatedMargin<'_>]) -> Option<usize> {
     let loads = list.iter().position(|m| m.kind == MarginKind::LoadFactor && !m.has_no_limit());
     // One coefficient everywhere is another structure than one with several, for which there is the factor.
     let has_factor = list.iter().any(|margin| margin.kind == MarginKind::FrictionFactor);
-    let is_other = |margin: &StatedMargin<'_>| has_factor && margin.kind == MarginKind::Friction && margin.differs();
+    let is_other = |margin: &StatedMargin<'_>| {
+        has_factor && margin.kind == MarginKind::Friction && margin.differs() || margin.kind.about().structure.is_some()
+    };
     let reserves = list.iter().enumerate().filter(|(_, margin)| !is_other(margin));
     let reserves = reserves.map(|(place, margin)| (place, margin.reserve()));
     loads.or_else(|| reserves.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(first, _)| first))
