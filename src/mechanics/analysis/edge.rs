@@ -71,15 +71,16 @@ impl Analysis {
         let Limit { at, outward, mechanism, condition } = limit;
         let beyond = match kind {
             MarginKind::Tilt => at + DEGREES_BEYOND_LIMIT * outward,
-            MarginKind::LoadFactor => at * (1.0 + outward * DEGREES_BEYOND_LIMIT.to_radians()),
+            kind if kind.multiplies_loads() => at * (1.0 + outward * DEGREES_BEYOND_LIMIT.to_radians()),
             _ => at + DEGREES_BEYOND_LIMIT.to_radians() * outward,
         };
         let setting = (kind.about().setting)(beyond);
         let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene_in(frame, condition)));
         scene.gravity = gravity * setting.along + quarter_turn(gravity) * setting.across;
-        for load in scene.loads.iter_mut().filter(|load| !load.is_fixed) {
-            load.force *= setting.loads;
-            load.torque *= setting.loads;
+        scene.loads.iter_mut().for_each(|load| *load = load.times_factor(setting.loads));
+        // The conditions of a changed structure are not those of the scene, so its motion stays as it is.
+        if kind.about().structure.is_some() {
+            return (at, mechanism.to_vec());
         }
         (at, self.elementary_mechanisms(&scene, &self.frames[frame], mechanism))
     }

@@ -2,7 +2,7 @@
 
 use crate::geometry::{Point, Vector};
 use crate::mechanics::scene::{BlockId, BodyId, RobotId};
-use crate::mechanics::statics::interface::Interface;
+use crate::mechanics::statics::interface::{ContactKind, Interface};
 use crate::mechanics::statics::resultant::Resultant;
 
 /// An interface and the admissible forces that it transmits.
@@ -22,6 +22,38 @@ pub struct Contact {
     /// The used fraction of the available friction, |T| / (μ (N1 + N2)); 0 if no friction is available.
     pub friction_used: f64,
 }
+
+impl Contact {
+    /// Returns the distance of the resultant from the middle of an edge interface, in metres, positive along its tangent. `None`
+    /// for a corner, or without a normal force.
+    pub fn eccentricity(&self) -> Option<f64> {
+        let is_edge = self.interface.kind == ContactKind::Edge && self.interface.length() > 0.0;
+        let off = || (self.resultant.at - self.interface.middle()).dot(&self.interface.tangent());
+        (is_edge && self.normal_forces.iter().sum::<f64>() > 0.0).then(off)
+    }
+
+    /// Returns whether the resultant lies in the middle third of an edge interface.
+    pub fn is_in_middle_third(&self) -> Option<bool> {
+        Some(self.eccentricity()?.abs() <= self.interface.length() / 6.0 * (1.0 + MIDDLE_THIRD_TOL))
+    }
+
+    /// Returns the pressure at both ends of an edge interface, N/m², which varies linearly and has the resultant of the normal
+    /// forces. There is no tension: outside of the middle third, only a part of the interface presses. `thickness` is that of
+    /// the structure, in metres. `None` for a corner, without a normal force, and at the very end of an interface.
+    pub fn pressure(&self, thickness: f64) -> Option<[f64; 2]> {
+        let (off, length) = (self.eccentricity()?, self.interface.length());
+        let mean = self.normal_forces.iter().sum::<f64>() / (length * thickness);
+        let pressing = 3.0 * (length / 2.0 - off.abs());
+        let [near, far] = match self.is_in_middle_third()? {
+            true => [6.0, -6.0].map(|times| mean * (1.0 + times * off.abs() / length).max(0.0)),
+            false => [2.0 * mean * length / pressing, 0.0],
+        };
+        (near.is_finite() && pressing > 0.0).then_some(if off < 0.0 { [near, far] } else { [far, near] })
+    }
+}
+
+/// A resultant this far beyond the middle third, relative to it, counts as on its end.
+const MIDDLE_THIRD_TOL: f64 = 1e-9;
 
 /// The force and the torque of a robot on the block that it holds.
 #[derive(Clone, Copy, Debug)]

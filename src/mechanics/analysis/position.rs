@@ -43,6 +43,7 @@ pub(super) fn with_axle_loads(scene: &Scene, vehicle: &Vehicle, position: &Vehic
         at: *at,
         torque: 0.0,
         is_fixed: false,
+        fixed_along: None,
         entry: first + number,
         spread: None,
         at_centroid: false,

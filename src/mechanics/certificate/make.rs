@@ -357,6 +357,7 @@ fn bodies(scene: &Scene) -> Vec<BodyForm> {
             weight: block.weight,
             centre,
             loads: loads
+                .flat_map(|load| load.parts().into_iter().flatten())
                 .map(|load| LoadForm {
                     force: [load.force.x, load.force.y],
                     at: (load.at != block.centroid).then(|| pair(load.at)),

@@ -168,6 +168,9 @@ pub struct Load {
     pub torque: f64,
     /// Whether the load keeps its amount when the load factor changes.
     pub is_fixed: bool,
+    /// The unit direction in which the force keeps its amount when the load factor changes, if it does so in one direction
+    /// only. The rest of the force, and the torque, change.
+    pub fixed_along: Option<Vector>,
     /// The index of the load in the list of the file. The pressure of one entry acts on several edges, as one load on
     /// each.
     pub entry: usize,
@@ -175,6 +178,36 @@ pub struct Load {
     pub spread: Option<Spread>,
     /// Whether the force acts at the centroid because the file gives no point.
     pub(crate) at_centroid: bool,
+}
+
+impl Load {
+    /// Returns the part of the force that the load factor does not multiply, N.
+    pub fn fixed_force(&self) -> Vector {
+        match self.fixed_along {
+            Some(along) => along * along.dot(&self.force),
+            None => self.force * if self.is_fixed { 1.0 } else { 0.0 },
+        }
+    }
+
+    /// Returns the same load with the parts that are not fixed times a factor.
+    pub fn times_factor(mut self, factor: f64) -> Load {
+        if !self.is_fixed {
+            let fixed = self.fixed_force();
+            self.force = fixed + (self.force - fixed) * factor;
+            self.torque *= factor;
+        }
+        self
+    }
+
+    /// Returns the fixed part of the load and the other one; `None` for a part that is not there.
+    pub(crate) fn parts(&self) -> [Option<Load>; 2] {
+        let Some(along) = self.fixed_along else {
+            return if self.is_fixed { [Some(*self), None] } else { [None, Some(*self)] };
+        };
+        let force = along * along.dot(&self.force);
+        let fixed = Load { force, torque: 0.0, is_fixed: true, fixed_along: None, ..*self };
+        [Some(fixed), Some(Load { force: self.force - force, fixed_along: None, ..*self })]
+    }
 }
 
 /// A load that is spread along an edge of a block and varies linearly between its ends.

@@ -22,7 +22,10 @@ use serde::Serialize;
 
 pub use body::{BlockEntry, CircleEntry, ContactEntry, GroundEntry, LimitsEntry, RobotEntry};
 pub(crate) use lines::Lines;
-pub use load::{AxleEntry, BlockSide, CaseEntry, DepthEntry, LoadEntry, MovementEntry, PressureEntry, VehicleEntry};
+pub use load::{
+    AxleEntry, BlockSide, CaseEntry, DepthEntry, FixedLoad, FixedPart, LoadEntry, MovementEntry, PressureEntry,
+    VehicleEntry,
+};
 pub use map::Map;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use setting::Setting;

@@ -213,10 +213,10 @@ impl<'a> Drawing<'a> {
             return;
         };
         let pressed = canvas.newtons(bearing.pressed);
-        let pressure = match length * scene.thickness {
-            area if area > 0.0 => format!(", mean pressure {}", quantity(bearing.pressed / area, units.stress())),
-            _ => String::new(),
-        };
+        let pressure = contact.pressure(scene.thickness).map_or(String::new(), |[first, second]| {
+            let stress = |pressure: f64| quantity(pressure, units.stress());
+            format!(", pressure {} to {}", stress(first.min(second)), stress(first.max(second)))
+        });
         let title = match bearing.friction {
             Some(share) => format!(
                 "Between {pair}: {} of the available friction, {} under {pressed}{pressure}{safe}",

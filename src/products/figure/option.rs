@@ -92,8 +92,9 @@ impl At {
 
 impl Word for At {
     fn all() -> Vec<At> {
-        use MarginKind::{Friction, FrictionFactor, HorizontalLoad, LoadFactor, Tilt};
-        let margins = [Tilt, LoadFactor, HorizontalLoad, Friction, FrictionFactor].map(At::Margin).into_iter();
+        use MarginKind::{Friction, FrictionFactor, HorizontalLoad, LoadFactor, Overturning, Sliding, Tilt};
+        let margins = [Tilt, LoadFactor, HorizontalLoad, Friction, FrictionFactor, Sliding, Overturning];
+        let margins = margins.map(At::Margin).into_iter();
         margins.chain([At::Movement, At::Placement, At::Vehicle]).collect()
     }
 

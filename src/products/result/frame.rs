@@ -101,6 +101,9 @@ fn interface<'a>(scene: &'a Scene, contact: &Contact) -> Json<'a> {
         friction_force: contact.friction_force,
         resultant: object! { at: contact.resultant.at, force: contact.resultant.force },
         friction_used: contact.friction_used,
+        eccentricity: contact.eccentricity(),
+        in_middle_third: contact.is_in_middle_third(),
+        pressure: contact.pressure(scene.thickness),
     }
 }
 

@@ -177,6 +177,9 @@ const MOVING_BLOCK: &[Key] = &[
 const SIDES: &[Key] = &[key("left", Margin, "to this side"), key("right", Margin, "to this side")];
 const MOTIONS_TO_SIDES: &[Key] = &[key("left", Motions, "to this side"), key("right", Motions, "to this side")];
 
+/// The condition of the keys of the normal stress.
+const IF_EDGE_PRESSES: &str = "if an edge presses";
+
 /// The number of kinds of margins of the whole frame. The limits of robots are the last kind.
 const FRAME_KINDS: usize = MarginKind::ALL.len() - 1;
 
@@ -334,6 +337,9 @@ pub static KEYS: &[Key] = &[
                 key("force", Pair, "force on `bodies[0]`").unit("N"),
             ]),
             key("friction_used", Number, "friction force as a share of the largest possible friction μN, from 0 to 1; 0 without friction; in a falling frame for the balance that includes the missing forces"),
+            key("eccentricity", Number, "distance of the resultant from the middle of the interface, positive along (−n_y, n_x)").unit("m").when(IF_EDGE_PRESSES),
+            key("in_middle_third", Flag, "whether the resultant lies in the middle third of the interface").when(IF_EDGE_PRESSES),
+            key("pressure", Pair, "pressure at the two ends: it varies linearly, has this resultant, and there is no tension").unit("N/m²").when("if an edge presses, unless the resultant is at an end"),
         ]),
         key("robots", Objects, "robots that hold a block in this frame, in the order of the scene").of(&[
             key("id", Text, "id of the robot"),

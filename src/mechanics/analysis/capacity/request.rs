@@ -220,6 +220,7 @@ impl Scene {
             force,
             torque: 0.0,
             is_fixed: false,
+            fixed_along: None,
             entry: usize::MAX,
             spread: None,
             at_centroid: false,

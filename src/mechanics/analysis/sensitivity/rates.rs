@@ -56,7 +56,7 @@ impl Rates {
             let Some(body) = body_of_block[load.block.0] else {
                 continue;
             };
-            *rate = state.power_per_shift(body, load.force * if load.is_fixed { 1.0 } else { changed.load_factor });
+            *rate = state.power_per_shift(body, load.times_factor(changed.load_factor).force);
             if load.at_centroid {
                 follows[body] += *rate;
             }

@@ -30,8 +30,50 @@ entry! {
         /// Two points [x, y], in the length unit of the scene, on the free outline of the blocks: the pressure acts on
         /// all edges between them that touch no other body.
         between: Vec<Pair> [length(min = 2, max = 2)],
-        /// Whether the load keeps its amount when the load factor changes. Default false.
-        fixed: Option<bool> [extend("default" = false)],
+        /// Whether the load keeps its amount when the load factor changes; "vertical" or "horizontal": only its part along
+        /// gravity, or across it. Default false.
+        fixed: Option<FixedLoad> [extend("default" = false)],
+    }
+}
+
+/// What the load factor does not change of a load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[serde(untagged)]
+pub enum FixedLoad {
+    /// All of it, or nothing.
+    All(bool),
+    /// The part of its force in one direction.
+    Part(FixedPart),
+}
+
+word! {
+    /// A direction in which a load is fixed. The torque belongs to the other part.
+    #[derive(serde::Deserialize)]
+    pub enum FixedPart {
+        /// Along gravity.
+        Vertical = "vertical",
+        /// At right angles to gravity.
+        Horizontal = "horizontal",
+    }
+}
+
+impl From<bool> for FixedLoad {
+    fn from(all: bool) -> FixedLoad {
+        FixedLoad::All(all)
+    }
+}
+
+impl Read for FixedLoad {
+    fn read<'s>(r: &mut Reader<'s>, node: &'s Node<'s>, at: &Trail<'_>) -> Option<FixedLoad> {
+        match &node.kind {
+            NodeKind::Flag(all) => Some(FixedLoad::All(*all)),
+            NodeKind::Text(_) => FixedPart::read(r, node, at).map(FixedLoad::Part),
+            _ => {
+                r.wrong(node, at, Expected::Other("true, false, \"vertical\" or \"horizontal\""));
+                None
+            }
+        }
     }
 }
 

@@ -7,6 +7,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::unit::split_unit;
+use crate::geometry::{Vector, quarter_turn};
 use crate::mechanics::scene::{Code, Problem, SceneError};
 use crate::read::path::Segment;
 use crate::read::tree::{Entry, List, MAX_DEPTH, Object, Tree, parse};
@@ -75,7 +76,7 @@ impl Setting {
                 path.0.push(Segment::Key("gravity".into()));
             }
             ("load_factor", Some(factor)) => {
-                multiply_loads(tree, factor);
+                multiply_loads(tree, factor)?;
                 path.0.push(Segment::Key("loads".into()));
             }
             (name, _) => tree.root = put(tree, text, tree.root.clone(), (name, &self.value), &mut path)?,
@@ -298,10 +299,24 @@ fn tilt(tree: &mut Tree<'_>, text: &str, degrees: f64) -> Result<(), Box<Problem
     Ok(())
 }
 
-/// Multiplies the forces, torques and pressures of all loads that are not fixed.
-fn multiply_loads(tree: &mut Tree<'_>, factor: f64) {
+/// Returns the unit vector of the direction in which a load is fixed: along gravity, or across it.
+fn fixed_direction(tree: &Tree<'_>, part: &str) -> Vector {
+    let gravity = match entry(tree, &tree.root, "gravity").map(|entry| &entry.value.kind) {
+        Some(NodeKind::List(list)) => match tree.items(list) {
+            [Node { kind: NodeKind::Number(x), .. }, Node { kind: NodeKind::Number(y), .. }] => Vector::new(*x, *y),
+            _ => Vector::zeros(),
+        },
+        _ => Vector::zeros(),
+    };
+    let down = Some(gravity).filter(|down| down.norm() > 0.0).map_or(-Vector::y(), |down| down.normalize());
+    if part == "vertical" { down } else { quarter_turn(down) }
+}
+
+/// Multiplies the forces, torques and pressures of all loads that are not fixed, and the other part of those that are fixed
+/// in one direction.
+fn multiply_loads(tree: &mut Tree<'_>, factor: f64) -> Result<(), Box<Problem>> {
     let Some(NodeKind::List(loads)) = entry(tree, &tree.root, "loads").map(|entry| entry.value.kind.clone()) else {
-        return;
+        return Ok(());
     };
     let times = |node: &mut Node<'_>| {
         match &mut node.kind {
@@ -316,14 +331,38 @@ fn multiply_loads(tree: &mut Tree<'_>, factor: f64) {
         }
     };
     for load in tree.items(&loads).to_vec() {
-        let is_fixed = entry(tree, &load, "fixed").is_some_and(|fixed| fixed.value.kind == NodeKind::Flag(true));
+        let fixed = entry(tree, &load, "fixed").map(|fixed| fixed.value.kind.clone());
+        let is_fixed = fixed == Some(NodeKind::Flag(true));
+        let direction = match &fixed {
+            Some(NodeKind::Text(part)) => Some(fixed_direction(tree, part)),
+            _ => None,
+        };
+        if direction.is_some() && entry(tree, &load, "pressure").is_some() {
+            let message = "a pressure of which one part is fixed has no factor".to_owned();
+            let help = "the margin load_factor has one; or change the unit_weight of the pressure".to_owned();
+            return Err(unknown(&Path(vec![Segment::Key("loads".into())]), message, help));
+        }
         let NodeKind::Object(Object(keys)) = load.kind else { continue };
         for at in keys.filter(|_| !is_fixed) {
             if !["force", "torque", "pressure"].contains(&&*tree.entries[at].name) {
                 continue;
             }
             match tree.entries[at].value.kind.clone() {
-                NodeKind::List(List(parts)) => tree.items[parts].iter_mut().for_each(times),
+                NodeKind::List(List(parts)) => {
+                    let given = match &tree.items[parts.clone()] {
+                        [Node { kind: NodeKind::Number(x), .. }, Node { kind: NodeKind::Number(y), .. }] => {
+                            Vector::new(*x, *y)
+                        }
+                        _ => Vector::zeros(),
+                    };
+                    tree.items[parts.clone()].iter_mut().for_each(times);
+                    let kept = direction.map_or(Vector::zeros(), |along| along * (along.dot(&given) * (1.0 - factor)));
+                    for (node, kept) in tree.items[parts].iter_mut().zip([kept.x, kept.y]) {
+                        if let NodeKind::Number(amount) = &mut node.kind {
+                            *amount += kept;
+                        }
+                    }
+                }
                 NodeKind::Object(Object(parts)) => {
                     let parts = tree.entries[parts].iter_mut().filter(|part| part.name == "unit_weight");
                     parts.for_each(|part| times(&mut part.value));
@@ -332,6 +371,7 @@ fn multiply_loads(tree: &mut Tree<'_>, factor: f64) {
             }
         }
     }
+    Ok(())
 }
 
 /// Returns what follows `begin` and a point in a name; `None` if the name does not begin so.

@@ -7,7 +7,7 @@ use super::Resolution;
 use super::free_edges::{FreeEdges, Stretch};
 use crate::geometry::{Point, Vector, cross, quarter_turn, range_of, sin_cos_degrees};
 use crate::mechanics::scene::finding::Findings;
-use crate::mechanics::scene::format::{BlockSide, DepthEntry, LoadEntry, PressureEntry};
+use crate::mechanics::scene::format::{BlockSide, DepthEntry, FixedLoad, FixedPart, LoadEntry, PressureEntry};
 use crate::mechanics::scene::name::Names;
 use crate::mechanics::scene::number::{at_least_zero, is_amount, is_sane};
 use crate::mechanics::scene::{Axle, Block, BlockId, Case, Ground, Load, Movement, Spread, Vehicle, problem};
@@ -36,7 +36,7 @@ impl Resolution<'_> {
         for (number, entry) in self.file.loads.iter().enumerate() {
             let at = list.index(number);
             let named = entry.block.as_ref().map(|block| names.find(findings, &at.key("block"), block).map(BlockId));
-            let is_fixed = entry.fixed.unwrap_or(false);
+            let fixed = self.fixed(entry.fixed);
             if let Some(pressure) = &entry.pressure {
                 if !is_one_pressure(findings, &at, entry) {
                     continue;
@@ -72,7 +72,7 @@ impl Resolution<'_> {
                     findings.add(&at, problem::message::too_many_pressed(MAX_PRESSED_EDGES));
                     return loads;
                 }
-                loads.extend(stretches.iter().filter_map(|stretch| pressure.on(stretch, number, is_fixed)));
+                loads.extend(stretches.iter().filter_map(|stretch| pressure.on(stretch, number, fixed)));
                 continue;
             }
             if entry.side.is_some() || !entry.between.is_empty() {
@@ -95,13 +95,27 @@ impl Resolution<'_> {
                 force: Vector::new(force[0], force[1]),
                 at: entry.at.map_or(centroid, |p| Point::new(p[0], p[1])),
                 torque,
-                is_fixed,
+                is_fixed: fixed.0,
+                fixed_along: fixed.1,
                 entry: number,
                 spread: None,
                 at_centroid: entry.at.is_none(),
             });
         }
         loads
+    }
+
+    /// Returns whether a whole load is fixed, and the direction in which it is fixed otherwise.
+    fn fixed(&self, entry: Option<FixedLoad>) -> (bool, Option<Vector>) {
+        let [x, y] = self.file.gravity.unwrap_or([0.0, -1.0]);
+        let down =
+            Some(Vector::new(x, y)).filter(|down| down.norm() > 0.0).map_or(-Vector::y(), |down| down.normalize());
+        match entry {
+            None => (false, None),
+            Some(FixedLoad::All(all)) => (all, None),
+            Some(FixedLoad::Part(FixedPart::Vertical)) => (false, Some(down)),
+            Some(FixedLoad::Part(FixedPart::Horizontal)) => (false, Some(quarter_turn(down))),
+        }
     }
 
     /// Returns the load cases of the file.
@@ -199,7 +213,7 @@ struct Pressure<'p> {
 
 impl Pressure<'_> {
     /// Returns the load that the pressure exerts on a part of an edge. `None` if it does not press there.
-    fn on(&self, stretch: &Stretch, entry: usize, is_fixed: bool) -> Option<Load> {
+    fn on(&self, stretch: &Stretch, entry: usize, fixed: (bool, Option<Vector>)) -> Option<Load> {
         let [mut from, mut to] = stretch.ends;
         let pressures = match self.entry {
             PressureEntry::Uniform(pressure) => [*pressure; 2],
@@ -227,7 +241,8 @@ impl Pressure<'_> {
             force: direction * (0.5 * (first + last) * length),
             at: from + edge * share,
             torque: if has_one_sign { 0.0 } else { about_middle },
-            is_fixed,
+            is_fixed: fixed.0,
+            fixed_along: fixed.1,
             entry,
             spread: Some(Spread { ends: [from, to], force: [direction * first, direction * last] }),
             at_centroid: false,

@@ -251,7 +251,7 @@ impl Effect for Loads {
 
     fn contribute(&self, context: &FrameContext, assembly: &mut Assembly) {
         let body_of_block = assembly.body_of_block(context.scene.blocks.len());
-        for load in &context.scene.loads {
+        for load in context.scene.loads.iter().flat_map(|load| load.parts().into_iter().flatten()) {
             if let Some(number) = body_of_block[load.block.0] {
                 let body = &mut assembly.bodies[number];
                 let more = load_about(body.centroid, load.at, load.force, load.torque);

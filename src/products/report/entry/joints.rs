@@ -3,12 +3,12 @@
 
 use super::unit::Units;
 use super::{Grid, HoverTarget, TableCell, hover};
-use crate::geometry::Point;
-use crate::mechanics::analysis::{Contact, FrameAnalysis};
-use crate::mechanics::scene::Scene;
+use crate::geometry::{Point, Vector};
+use crate::mechanics::analysis::{Contact, FrameAnalysis, Verdict};
+use crate::mechanics::scene::{BodyId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::products::wording::failure;
-use crate::products::wording::number::percent;
+use crate::products::wording::number::{counted, percent};
 use crate::text::line;
 
 /// Forces up to this fraction of the largest force at a joint count as rounding errors of the solver.
@@ -165,6 +165,70 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     // With a kernel of 1, the allowed distance is 0, and the joint counts as fully used.
     let share = if half > 0.0 { (off / half).min(1.0) } else { 1.0 };
     Some((off, share))
+}
+
+/// At most this many base and bed joints are listed.
+const MAX_BASES: usize = 12;
+/// A joint is a base or bed joint if its normal is at most this angle from the direction of gravity.
+const MAX_BED_ANGLE: f64 = 45.0;
+
+/// Makes a table of the joints on which the structure stands, those at the ground first, with their pressures, and a note on
+/// how far these forces are the only ones.
+pub(super) fn bases(scene: &Scene, frame_analysis: &FrameAnalysis, number: usize) -> (Grid, String) {
+    let down = Some(scene.gravity).filter(|down| down.norm() > 0.0).map_or(-Vector::y(), |down| down.normalize());
+    let is_bed =
+        |contact: &Contact| contact.interface.normal.dot(&down).abs() >= libm::cos(MAX_BED_ANGLE.to_radians()) - 1e-9;
+    let pressing = frame_analysis.contacts.iter().enumerate().filter(|(_, contact)| contact.eccentricity().is_some());
+    let mut beds: Vec<(usize, &Contact)> = pressing.filter(|(_, contact)| is_bed(contact)).collect();
+    let is_base = |contact: &Contact| contact.interface.bodies.iter().any(|body| matches!(body, BodyId::Ground(_)));
+    beds.sort_by_key(|(_, contact)| !is_base(contact));
+    let more = beds.len().saturating_sub(MAX_BASES);
+    beds.truncate(MAX_BASES);
+    let units = Units::new(scene, frame_analysis);
+    let contacts = || beds.iter().map(|(_, contact)| *contact);
+    let newtons = units.newtons(contacts().map(Contact::normal_force));
+    let offs = units.lengths(contacts().map(|contact| 0.5 * contact.interface.length()));
+    let pressures = contacts().filter_map(|contact| contact.pressure(scene.thickness)).flatten();
+    let stress = units.stresses(pressures);
+    let heads = [
+        "joint".to_owned(),
+        newtons.head("normal N"),
+        offs.head("e"),
+        stress.head("at the left end"),
+        stress.head("at the right end"),
+        "resultant".to_owned(),
+    ];
+    let mut grid = Grid::new("", &heads);
+    for (number, contact) in beds {
+        let ends = contact.interface.ends;
+        let pressure = contact
+            .pressure(scene.thickness)
+            .map(|[first, second]| if ends[0].x <= ends[1].x { [first, second] } else { [second, first] });
+        let [left, right] =
+            pressure.map_or(["–".to_owned(), "–".to_owned()], |both| both.map(|one| stress.write(one)));
+        let third =
+            if contact.is_in_middle_third() == Some(true) { "in the middle third" } else { "outside the middle third" };
+        let off = contact.eccentricity().unwrap_or(0.0).abs();
+        let cells = [
+            name(scene, contact),
+            newtons.write(contact.normal_force()),
+            offs.write(off),
+            left,
+            right,
+            third.to_owned(),
+        ];
+        grid.add(format!("i{number}"), cells);
+    }
+    let left_out = if more > 0 { format!(" {} are in --full.", counted(more, "more joint")) } else { String::new() };
+    // If each block rests on one joint, as in a stack, the loads decide all forces.
+    let is_unique = frame_analysis.contacts.len() == scene.frames[number].placed.len()
+        && frame_analysis.robots.is_empty()
+        && frame_analysis.verdict == Verdict::Stable;
+    let one = if is_unique { "" } else { " In other balances of the same loads the pressures may be others." };
+    let note = format!(
+        "The pressure varies linearly, without tension; e is the distance of the resultant from the middle.{one}{left_out}"
+    );
+    (grid, note)
 }
 
 /// Makes a table of the robots of a frame, with their forces and the largest fraction of a limit that each robot

@@ -2,7 +2,7 @@
 //! and margins, then its forces, the governing collapse and the balance of forces as a check.
 
 use super::collapse::{Collapse, other_way};
-use super::joints::{Ranking, robots};
+use super::joints::{Ranking, bases, robots};
 use super::unit::Units;
 use super::{Badge, Figure, Grid, MarginBar, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
 use crate::mechanics::analysis::{
@@ -111,6 +111,8 @@ pub(super) fn sheet(
         parts.push(SheetPart::Table(table));
         parts.push(SheetPart::Note(note));
     }
+    let (beds, note) = bases(scene, found, number);
+    parts.extend(titled("Base and bed joints", beds, Some(note)));
     parts.push(SheetPart::Table(robots(scene, found)));
     parts.extend(movements(scene, found));
     parts.extend(titled("Blocks that may leave", removable(scene, found), None));

@@ -66,6 +66,11 @@ impl Units {
         self.column(numbers, self.scene.torque())
     }
 
+    /// Chooses the unit of a column of pressures. `numbers` are all pressures of the column, in N/m².
+    pub fn stresses(self, numbers: impl IntoIterator<Item = f64>) -> Column {
+        self.column(numbers, self.scene.stress())
+    }
+
     fn column(self, numbers: impl IntoIterator<Item = f64>, unit: Unit) -> Column {
         let (prefix, shift) = if unit.is_chosen { ("", 0) } else { (self.prefix, self.shift) };
         let noise = NOISE * largest(numbers);
