@@ -21,7 +21,8 @@ mod random;
 mod slight;
 
 use exact::{
-    Problems, check_friction, check_kernel, check_linear, check_robots, check_tilt, exact_interval, is_borderline,
+    Problems, check_changed_structures, check_friction, check_kernel, check_linear, check_robots, check_tilt,
+    exact_interval, is_borderline,
 };
 use random::random_scene;
 
@@ -172,6 +173,7 @@ fn problems_of(number: u64, file: &Value, has_band: bool) -> Vec<String> {
     let is_loaded = !scene.loads().is_empty();
     if is_loaded {
         check_linear("load factor", file, Growing::ListedLoads, found.of(MarginKind::LoadFactor), &mut problems);
+        check_changed_structures(file, found, &mut problems);
     } else if found.of(MarginKind::LoadFactor).is_some() {
         problems.push("a load factor without loads".into());
     }

@@ -80,6 +80,7 @@ mod true_places;
 mod structure;
 mod vehicle;
 mod visible;
+mod walls;
 mod wedging;
 mod validation;
 mod words;

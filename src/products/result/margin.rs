@@ -29,8 +29,9 @@ pub(super) fn margins_of<'a>(scene: &'a Scene, found: &'a Margins) -> Json<'a> {
     let robots = |read: &dyn Fn(Option<&End>) -> Json<'a>| of_robots(scene, found, |interval| read(interval.low()));
     let own = MarginKind::of_frame().map(|kind| (kind.word(), margin(found, kind)));
     let mechanisms = MarginKind::of_frame().map(|kind| (kind.word(), ends(found, kind, |end, _| beyond(end))));
-    // Where the loads change, both ends of the interval have a motion.
-    let both = MarginKind::of_frame().filter(|kind| kind.changes_loads()).map(|kind| {
+    // Where the loads of the structure as it is change, both ends of the interval have a motion.
+    let has_both = |kind: &MarginKind| kind.changes_loads() && kind.about().structure.is_none();
+    let both = MarginKind::of_frame().filter(has_both).map(|kind| {
         let interval = found.of(kind).filter(|interval| interval.low().is_some());
         (kind.word(), interval.map(|interval| [beyond(interval.low()), beyond(interval.high())]).into())
     });

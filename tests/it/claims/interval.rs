@@ -32,6 +32,9 @@ fn parameters(file: &Value) -> Vec<Parameter> {
         ("tilt of gravity", "tilt", 0.0),
         ("horizontal load, as a share of the weights", "horizontal_load", 0.0),
         ("safety kernel", "kernel", own("kernel", 0.0)),
+        ("factor on the loads if nothing can turn (sliding)", "sliding", 1.0),
+        ("factor on the loads if nothing can slide (overturning)", "overturning", 1.0),
+        ("factor on the loads within the middle third of all joints", "middle_third", 1.0),
     ]
     .into_iter()
     .map(|(name, key, present)| Parameter {
@@ -182,8 +185,10 @@ fn words_and_bars_state_the_intervals_of_the_result() {
                 (_, true) => inside += 1,
                 _ => outside += 1,
             }
+            // Another structure may stand where this one falls.
+            let is_own = !["/sliding", "/overturning", "/middle_third"].contains(&&*parameter.pointer);
             let stands = stated.frame["verdict"] == "stable";
-            assert_eq!(contains(interval, parameter.present), stands, "{label}");
+            assert!(!is_own || contains(interval, parameter.present) == stands, "{label}");
         }
         let different: BTreeSet<&str> = drawn.iter().copied().collect();
         assert_eq!(seen, different.len(), "every bar shows an interval");

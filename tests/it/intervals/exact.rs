@@ -6,7 +6,7 @@ use drystone::analysis::{Interval, MarginKind, Margins};
 use serde_json::{Value, json};
 
 use super::read;
-use crate::oracle::balance::Balance;
+use crate::oracle::balance::{Balance, Locked};
 use crate::oracle::factor::{ENDLESS, Growing};
 use crate::oracle::touch::touches;
 use crate::random::Random;
@@ -24,13 +24,31 @@ fn stands(file: &Value) -> bool {
 
 /// The exact interval of a scene, with all its groups.
 pub(super) fn exact_interval(file: &Value, growing: Growing) -> Option<[f64; 2]> {
+    exact_interval_of(file, growing, None)
+}
+
+/// Compares the intervals of the load factor if nothing can turn, if nothing can slide, and within the middle third.
+pub(super) fn check_changed_structures(file: &Value, found: &Margins, problems: &mut Problems) {
+    let third = with(file, "kernel", file["kernel"].as_f64().unwrap_or(0.0).max(2.0 / 3.0));
+    for (kind, file, locked) in [
+        (MarginKind::Sliding, file, Some(Locked::Turning)),
+        (MarginKind::Overturning, file, Some(Locked::Sliding)),
+        (MarginKind::MiddleThird, &third, None),
+    ] {
+        let exact = exact_interval_of(file, Growing::ListedLoads, locked);
+        compare(kind.word(), found.of(kind), exact, NONE, problems);
+    }
+}
+
+fn exact_interval_of(file: &Value, growing: Growing, locked: Option<Locked>) -> Option<[f64; 2]> {
     let scene = exact_scene(file);
     let touches = touches(&scene);
     let mut whole = [RBig::from(-ENDLESS), RBig::from(ENDLESS)];
     if growing == Growing::ListedLoads {
         whole[0] = RBig::ZERO;
     }
-    for group in Balance::groups(&scene, &touches) {
+    for mut group in Balance::groups(&scene, &touches) {
+        group.locked = locked;
         let [low, high] = group.interval(growing)?;
         let [least, most] = whole;
         whole = [least.max(low), most.min(high)];

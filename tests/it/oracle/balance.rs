@@ -22,6 +22,15 @@ pub struct Balance<'a> {
     /// The median length of all interfaces; torques are divided by it.
     length: f64,
     centroids: Vec<Pair>,
+    /// What cannot move.
+    pub locked: Option<Locked>,
+}
+
+/// What cannot move: each block is held by any torque, or each touch carries any friction force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Locked {
+    Turning,
+    Sliding,
 }
 
 /// The sum to be minimised.
@@ -59,6 +68,7 @@ impl<'a> Balance<'a> {
                 holds: scene.frames()[0].holds.iter().filter(|h| mark[h.block.0] == first).copied().collect(),
                 length,
                 centroids: centroids.clone(),
+                locked: None,
             })
             .collect()
     }
@@ -301,13 +311,21 @@ impl<'a> Balance<'a> {
                 self.act(&mut program, touch, press, &at, &axes.normal);
                 entries.push((press, -exact(touch.friction)));
             }
-            if touch.friction > 0.0 {
+            if touch.friction > 0.0 || self.locked == Some(Locked::Sliding) {
                 for along in [axes.tangent.clone(), negative(&axes.tangent)] {
                     let rub = program.unknown(cost.clone());
                     self.act(&mut program, touch, rub, &touch.ends[0], &along);
                     entries.push((rub, RBig::ONE));
                 }
-                program.rows.push(Row { entries, bound: RBig::ZERO, equality: false });
+                if self.locked != Some(Locked::Sliding) {
+                    program.rows.push(Row { entries, bound: RBig::ZERO, equality: false });
+                }
+            }
+        }
+        for place in 0..if self.locked == Some(Locked::Turning) { self.blocks.len() } else { 0 } {
+            for sign in [1.0, -1.0] {
+                let torque = program.unknown(RBig::ZERO);
+                program.rows[3 * place + 2].entries.push((torque, exact(sign)));
             }
         }
         for hold in &self.holds {

@@ -8,7 +8,7 @@ use crate::mechanics::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::products::wording::failure;
-use crate::products::wording::number::{counted, percent};
+use crate::products::wording::number::percent;
 use crate::text::line;
 
 /// Forces up to this fraction of the largest force at a joint count as rounding errors of the solver.
@@ -167,14 +167,14 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     Some((off, share))
 }
 
-/// At most this many base and bed joints are listed.
-const MAX_BASES: usize = 12;
+/// A structure with more of these joints has the table in the full report only.
+const MAX_BASES: usize = 5;
 /// A joint is a base or bed joint if its normal is at most this angle from the direction of gravity.
 const MAX_BED_ANGLE: f64 = 45.0;
 
 /// Makes a table of the joints on which the structure stands, those at the ground first, with their pressures, and a note on
-/// how far these forces are the only ones.
-pub(super) fn bases(scene: &Scene, frame_analysis: &FrameAnalysis, number: usize) -> (Grid, String) {
+/// how far these forces are the only ones. The table is empty if there are many, unless the report is `full`.
+pub(super) fn bases(scene: &Scene, frame_analysis: &FrameAnalysis, number: usize, full: bool) -> (Grid, String) {
     let down = Some(scene.gravity).filter(|down| down.norm() > 0.0).map_or(-Vector::y(), |down| down.normalize());
     let is_bed =
         |contact: &Contact| contact.interface.normal.dot(&down).abs() >= libm::cos(MAX_BED_ANGLE.to_radians()) - 1e-9;
@@ -182,8 +182,9 @@ pub(super) fn bases(scene: &Scene, frame_analysis: &FrameAnalysis, number: usize
     let mut beds: Vec<(usize, &Contact)> = pressing.filter(|(_, contact)| is_bed(contact)).collect();
     let is_base = |contact: &Contact| contact.interface.bodies.iter().any(|body| matches!(body, BodyId::Ground(_)));
     beds.sort_by_key(|(_, contact)| !is_base(contact));
-    let more = beds.len().saturating_sub(MAX_BASES);
-    beds.truncate(MAX_BASES);
+    if beds.len() > MAX_BASES && !full {
+        beds.clear();
+    }
     let units = Units::new(scene, frame_analysis);
     let contacts = || beds.iter().map(|(_, contact)| *contact);
     let newtons = units.newtons(contacts().map(Contact::normal_force));
@@ -219,14 +220,13 @@ pub(super) fn bases(scene: &Scene, frame_analysis: &FrameAnalysis, number: usize
         ];
         grid.add(format!("i{number}"), cells);
     }
-    let left_out = if more > 0 { format!(" {} are in --full.", counted(more, "more joint")) } else { String::new() };
     // If each block rests on one joint, as in a stack, the loads decide all forces.
     let is_unique = frame_analysis.contacts.len() == scene.frames[number].placed.len()
         && frame_analysis.robots.is_empty()
         && frame_analysis.verdict == Verdict::Stable;
     let one = if is_unique { "" } else { " In other balances of the same loads the pressures may be others." };
     let note = format!(
-        "The pressure varies linearly, without tension; e is the distance of the resultant from the middle.{one}{left_out}"
+        "The pressure varies linearly, without tension; e is the distance of the resultant from the middle.{one}"
     );
     (grid, note)
 }
