@@ -36,12 +36,13 @@ def check(
     """Analyses a scene and returns, for each frame, the verdict with its proof, the forces, and the failures.
 
     ``margins`` is ``True`` for all margins, or one or several of "friction", "friction_factor", "tilt",
-    "horizontal_load", "kernel", "load_factor" and "robots". ``wedging=True`` tests whether a frame stands only by
-    wedging. ``placement=True`` computes how accurately the blocks must be placed; ``placed`` names the only blocks
-    that are off their places. ``removable=True`` finds out for each block whether the rest stands without it, and how
-    hard a robot must hold it or the rest. ``verdict_only=True`` leaves out all results that the verdict does not
-    need. ``accuracy`` is "standard", "proved" or "exact": with "exact", a verdict that exact arithmetic does not prove is
-    undecided. ``time_limit`` is in seconds, and ``contact_tolerance`` is in metres. ``notes=False`` leaves out the notes on values of the scene that are allowed but probably not intended.
+    "horizontal_load", "kernel", "load_factor", "sliding", "overturning", "middle_third" and "robots". ``wedging=True``
+    tests whether a frame stands only by wedging. ``placement=True`` computes how accurately the blocks must be placed;
+    ``placed`` names the only blocks that are off their places. ``removable=True`` finds out for each block whether the
+    rest stands without it, and how hard a robot must hold it or the rest. ``verdict_only=True`` leaves out all results
+    that the verdict does not need. ``accuracy`` is "standard", "proved" or "exact": with "exact", a verdict that exact
+    arithmetic does not prove is undecided. ``time_limit`` is in seconds, and ``contact_tolerance`` is in metres.
+    ``notes=False`` leaves out the notes on values of the scene that are allowed but probably not intended.
 
     ``capacity`` computes all forces that a block can carry: ``"lintel"`` at its centroid (or at the grip point, if a
     robot holds the block), ``("lintel", (2, 3))`` at a point, ``("lintel", (1, 3), (3, 3))`` at a contact between two

@@ -234,14 +234,14 @@ class Scene:
         pressure: float | Point | Mapping[str, float] | None = None,
         side: str | None = None,
         between: Sequence[Point] | None = None,
-        fixed: bool | None = None,
+        fixed: bool | str | None = None,
     ) -> Scene:
         """Adds a load: a force in N, a torque in N·m or both on a block, or a pressure in N/m² on sides of blocks.
 
         ``pressure`` is a number, a pair of numbers at both ends, or a dict with ``surface``, ``unit_weight``,
         ``coefficient`` and ``friction_angle``. It acts on the ``side`` of the block ("left", "right", "top" or
         "bottom"), or on the free edges ``between`` two points. A ``fixed`` load keeps its amount when the load factor
-        changes.
+        changes; with ``fixed="vertical"`` or ``"horizontal"`` only its part along gravity, or across it, does.
         """
         return self._add("loads", _without(locals(), "self"))
 
