@@ -48,7 +48,9 @@ impl Contact {
             true => [6.0, -6.0].map(|times| mean * (1.0 + times * off.abs() / length).max(0.0)),
             false => [2.0 * mean * length / pressing, 0.0],
         };
-        (near.is_finite() && pressing > 0.0).then_some(if off < 0.0 { [near, far] } else { [far, near] })
+        let [first, second] = self.interface.ends;
+        let is_first = (self.resultant.at - self.interface.middle()).dot(&(second - first)) < 0.0;
+        (near.is_finite() && pressing > 0.0).then_some(if is_first { [near, far] } else { [far, near] })
     }
 }
 

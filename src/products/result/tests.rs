@@ -160,7 +160,7 @@ const LINES: &str = r#"{
       "total_sticking": 4.125,
       "weight": 24.0,
       "interfaces": [
-        {"bodies": ["a","ground"], "ends": [[0.0,0.0],[3.0,0.0]], "application_points": [[0.3,0.0],[2.7,0.0]], "normal": [0.0,1.0], "mu": 0.5, "normal_forces": [4.5,1.5], "friction_force": -0.75, "resultant": {"at": [0.9,0.0], "force": [0.75,6.0]}, "friction_used": 0.25}
+        {"bodies": ["a","ground"], "ends": [[0.0,0.0],[3.0,0.0]], "application_points": [[0.3,0.0],[2.7,0.0]], "normal": [0.0,1.0], "mu": 0.5, "normal_forces": [4.5,1.5], "friction_force": -0.75, "resultant": {"at": [0.9,0.0], "force": [0.75,6.0]}, "friction_used": 0.25, "eccentricity": 0.6, "in_middle_third": false, "pressure": [4.444444444444444,0.0]}
       ],
       "robots": [
         {"id": "r0", "holds": "b", "at": [2.0,1.5], "force": [3.0,-4.0], "torque": 0.1, "limit_used": 1.0}
