@@ -60,7 +60,7 @@ impl Store {
             kept += line.len();
             known.insert(entry.0, entry.1);
         }
-        let unwritten = |error: std::io::Error| CliError::not_written(&shown.to_string(), error);
+        let unwritten = |error: std::io::Error| CliError::not_written(shown.to_string(), error);
         let options = OpenOptions::new().create(true).append(true).open(path);
         let mut file = options.map_err(unwritten)?;
         file.set_len(kept as u64).map_err(unwritten)?;
