@@ -109,7 +109,7 @@ export class Solver {
 
   /** Requests the values of a number for which one step stands. @param {string} scene @param {string} name @param {[number, number]} range @param {number} frame */
   vary(scene, name, range, frame) {
-    return this.ask("slow", "vary", { task: "vary", scene, name, range, frame });
+    return this.ask("slow", "vary", { task: "vary", scene, name, range, frame, patience: PATIENCE });
   }
 
   /** @param {string} scene @param {any} options */

@@ -14,7 +14,7 @@ const tasks = {
   check: ({ scene, options }) => shortened(JSON.parse(drystone.check(scene, JSON.stringify(options)))),
   figure: ({ scene, options }) => drystone.figure(scene, JSON.stringify(options)),
   problems: ({ scene }) => JSON.parse(drystone.problems(scene)),
-  vary: ({ scene, name, range, frame }) => JSON.parse(drystone.vary(scene, name, range[0], range[1], frame + 1)),
+  vary: ({ scene, name, range, frame, patience }) => JSON.parse(drystone.vary(scene, name, range[0], range[1], frame + 1, patience)),
   picture: ({ bytes }) => drystone.sceneIn(bytes),
   import: ({ text, format }) => JSON.parse(drystone.importDrawing(text, format)),
 };

@@ -400,22 +400,22 @@ impl Map {
     }
 }
 
-/// A number of the result at the pairs of a regular grid over a [`Map`], where it holds.
+/// The values of a number of the result on a regular grid over a [`Map`], at the pairs that hold.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Field {
+pub struct ValueGrid {
     /// The values of the columns and of the rows.
     places: [Vec<f64>; 2],
     /// The number at each pair, by columns; infinite without a limit, `None` outside of the region.
     values: Vec<Option<f64>>,
 }
 
-/// The number of cells of a [`Field`] along each range.
-const FIELD_CELLS: usize = 32;
+/// The number of cells of a [`ValueGrid`] along each range.
+const GRID_CELLS: usize = 32;
 
-impl Field {
-    /// Finds the number at each pair of the grid at which the map holds.
-    pub fn new(map: &Map, of: impl Fn(&[f64]) -> Found + Sync) -> Field {
-        let places = map.ranges.each_ref().map(|range| range.values(FIELD_CELLS + 1));
+impl ValueGrid {
+    /// Examines each pair of the grid that holds on the map. `of` returns the number.
+    pub fn new(map: &Map, of: impl Fn(&[f64]) -> Found + Sync) -> ValueGrid {
+        let places = map.ranges.each_ref().map(|range| range.values(GRID_CELLS + 1));
         let vertex = |axis: usize, value: f64| {
             let range = &map.ranges[axis];
             let share = (value - range.from) / (range.to - range.from);
@@ -430,17 +430,17 @@ impl Field {
         let inside: Vec<Vec<f64>> = pairs.iter().filter(|pair| holds(**pair)).map(|pair| pair.to_vec()).collect();
         let mut found = all(inside, &of).into_iter();
         let values = pairs.iter().map(|pair| holds(*pair).then(|| found.next()?.found.value).flatten()).collect();
-        Field { places, values }
+        ValueGrid { places, values }
     }
 
-    /// Returns the least and the largest limited number, if there is one.
+    /// Returns the least and the largest value that is not infinite. `None` if there is no such value.
     pub fn extent(&self) -> Option<(f64, f64)> {
         let limited = self.values.iter().flatten().filter(|value| value.is_finite());
         limited.map(|value| (*value, *value)).reduce(|(low, high), (a, b)| (low.min(a), high.max(b)))
     }
 
-    /// Returns the lines along which the number has this value, as runs of pairs. The number is taken as linear along each
-    /// edge of the grid.
+    /// Returns the isolines of a value: each is a list of pairs in its order. Between two neighbours on the grid, the number
+    /// counts as linear. A cell with a corner that does not hold has no isoline.
     pub fn lines(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let height = self.places[1].len();
         let at = |[x, y]: Vertex| Some((self.values[x * height + y]?, [self.places[0][x], self.places[1][y]]));
@@ -460,7 +460,7 @@ impl Field {
                 }
             }
         }
-        // A piece joins the run that ends where it begins: neighbours compute the same point on their common edge.
+        // Join pieces that have an end in common. Two neighbouring cells compute exactly the same point on their common edge.
         let mut runs: Vec<Vec<[f64; 2]>> = Vec::new();
         while let Some([from, to]) = pieces.pop() {
             let mut run = std::collections::VecDeque::from([from, to]);
@@ -523,7 +523,7 @@ mod tests {
     #[test]
     fn lines_of_equal_values_of_a_linear_number_are_straight() {
         let map = Map::new([range(0.0, 2.0), range(0.0, 1.0)], |at, _| found(at[1] < 0.9));
-        let field = Field::new(&map, |at| Found { value: Some(3.0 * at[0] + at[1]), ..found(true) });
+        let field = ValueGrid::new(&map, |at| Found { value: Some(3.0 * at[0] + at[1]), ..found(true) });
         let lines = field.lines(2.2);
         assert_eq!(lines.len(), 1);
         assert!(lines[0].len() > 20 && lines[0].iter().all(|[x, y]| (3.0 * x + y - 2.2).abs() < 1e-9), "{lines:?}");

@@ -146,14 +146,16 @@ test("a drawing becomes the same scene", () => {
 test("the values of a number at which it stands are those of the program", () => {
   const name = "examples/playground/scenes/lintel.json";
   for (const [number, from, to] of [["friction", 0.1, 1], ["kernel", 0, 0.9], ["nonsense", 0, 1]]) {
-    const found = JSON.parse(module.vary(read(name), number, from, to, 1));
+    const found = JSON.parse(module.vary(read(name), number, from, to, 1, 60));
     assert.deepEqual([found[0].from, found.at(-1).to], [from, to]);
     const { stdout, stderr } = printed("vary", name, `${number}=${from}..${to}`, "--digits", "3", "--json");
     if (number === "nonsense") assert.ok(found[0].state === "no_scene" && stderr.includes("unknown key"));
     else assert.deepEqual(found.map((/** @type {any} */ f) => f.state), JSON.parse(stdout).intervals.map((/** @type {any} */ f) => f.state), number);
   }
-  assert.throws(() => module.vary(read(name), "friction", 1, 0, 1));
-  assert.throws(() => module.vary(read(name), "friction", 0, 1, 9));
+  // Without time, nothing is decided.
+  assert.deepEqual(JSON.parse(module.vary(read(name), "friction", 0, 1, 1, 0)).map((/** @type {any} */ f) => f.state), ["undecided"]);
+  assert.throws(() => module.vary(read(name), "friction", 1, 0, 1, 60));
+  assert.throws(() => module.vary(read(name), "friction", 0, 1, 9, 60));
 });
 
 test("a session gives what the functions give", () => {

@@ -85,8 +85,8 @@ pub(crate) struct Report {
 }
 
 /// The digits of the ends of intervals, and the width of the picture of numbers that vary, pixels.
-const DIGITS: u32 = 4;
-const FIGURE_WIDTH: f64 = 480.0;
+const VARY_DIGITS: u32 = 4;
+const VARY_WIDTH: f64 = 480.0;
 
 /// The name of the script file that `examples/playground/build.sh` makes.
 const SCRIPT_NAME: &str = "interactive.js";
@@ -317,18 +317,22 @@ impl Report {
             entry.add_study(&measured).map_err(|e| undone(&e))?;
         }
         for typed in &self.vary {
-            self.add_varied(&mut entry, &read[0], typed, report_options)?;
+            // A scene may lack the number that varies. The other scenes still have their part of the report.
+            if let Err(complaint) = self.add_varied(&mut entry, &read[0], typed, form, report_options) {
+                return Ok(Err(vec![(refused(&read[0].path, &complaint), complaint)]));
+            }
         }
         let piece = Piece::new(&entry, number, form, &stem_of(&self.output)).map_err(|e| undone(&e))?;
         Ok(Ok((piece, ending.unwrap_or(ExitStatus::Done))))
     }
 
-    /// Adds the section of numbers that vary. `typed` has the words that follow the scene in `drystone vary`.
+    /// Adds the section of the numbers that vary. `typed` has the arguments that follow the scene in `drystone vary`.
     fn add_varied(
         &self,
         entry: &mut Entry,
         source: &Source,
         typed: &str,
+        form: Form,
         options: &ReportOptions,
     ) -> Result<(), CliError> {
         let (mut numbers, mut ordinate) = (Vec::new(), Ordinate::default());
@@ -344,12 +348,21 @@ impl Report {
         // The bytes have the values of --set already.
         let (bytes, level) = (|| Ok(source.file.clone()), AnalysisArgs { set: Vec::new(), ..self.level.clone() });
         let varied = Varied::read(&source.name(), bytes, &numbers, ordinate, &level).map_err(wrong)?;
-        let answer = varied.answer(DIGITS, || ());
-        let width = Some(FIGURE_WIDTH);
+        let answer = varied.answer(VARY_DIGITS, || ());
+        let width = Some(VARY_WIDTH);
         let is_drawn = ordinate.curve.is_some() || varied.ranges.len() == 2;
-        let drawn = |theme: &Theme| varied.drawing(&answer, theme, width);
+        let fonts = Fonts::default();
+        let drawn = |theme: &Theme| {
+            let mut drawing = varied.drawing(&answer, theme, width);
+            if matches!(form, Form::Pdf | Form::Markdown) {
+                drawing.items.iter_mut().for_each(|item| missing_glyphs::spell(item, &fonts));
+            }
+            drawing
+        };
         let picture = is_drawn.then(|| (drawn(&options.theme), options.dark.as_ref().map(drawn)));
-        entry.add_varied(typed, varied.paragraph(&answer), picture);
+        let settings = self.level.set.iter().flat_map(|setting| ["--set".to_owned(), setting.to_string()]);
+        let words: Vec<String> = typed.split_whitespace().map(str::to_owned).chain(settings).collect();
+        entry.add_varied(&words, varied.paragraph(&answer), picture);
         Ok(())
     }
 

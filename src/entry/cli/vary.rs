@@ -22,7 +22,7 @@ use crate::entry::request::AnalysisArgs;
 use crate::pictures::output::file::Existing;
 use crate::products::vary;
 use crate::read::file::ending;
-use store::Store;
+use store::ResultFile;
 
 /// Find for which values of one number, or of two, a structure stands
 ///
@@ -45,14 +45,15 @@ pub(crate) struct Vary {
     /// For one number: the number of the result that a picture shows as a curve, such as load_factor
     #[arg(long, value_name = "NAME")]
     curve: Option<String>,
-    /// For two numbers: the number of the result that the map shows as lines of equal values, such as load_factor; takes
-    /// longer than the map
+    /// For two numbers: draw lines of equal values of this number of the result on the map, such as load_factor. Takes longer
+    /// than the map alone
     #[arg(long, value_name = "NAME")]
     isolines: Option<String>,
-    /// Keep each result in FILE, and take those that FILE has from an earlier run, also one that was stopped
+    /// Save each result in FILE as soon as it is found. If FILE has results of an earlier run of the same question, use
+    /// them, even if that run was stopped
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
-    /// Write the scene of each result into the folder DIR
+    /// Write the scene of each sample into the folder DIR; its name has the values
     #[arg(long, value_name = "DIR")]
     keep: Option<PathBuf>,
     /// Significant digits of the ends of intervals
@@ -91,7 +92,7 @@ impl Vary {
         let fonts = self.picture.fonts()?;
         if let Some(path) = &self.resume {
             destination::refuse_overwrites(std::slice::from_ref(path), &inputs)?;
-            varied.store = Some(Store::open(path, &varied.asked())?);
+            varied.store = Some(ResultFile::open(path, &varied.asked())?);
         }
         let progress = Progress::begin(0, terminal.shows_progress());
         let answer = varied.answer(self.digits, || progress.step());
@@ -102,7 +103,7 @@ impl Vary {
             Answer::Two(map, _) => &map.samples,
         };
         if let Some(folder) = &self.keep {
-            let scenes = samples.iter().filter_map(|sample| varied.kept(&sample.at));
+            let scenes = samples.iter().filter_map(|sample| varied.scene_file(&sample.at));
             let files: Vec<(PathBuf, Vec<u8>)> = scenes.map(|(name, bytes)| (folder.join(name), bytes)).collect();
             destination::make_folder(folder, folder.parent().unwrap_or(Path::new("")))?;
             destination::write(&files, Existing::Replace, &[])?;

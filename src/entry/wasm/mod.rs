@@ -9,12 +9,14 @@
 mod request;
 
 use std::panic;
+use std::time::Duration;
 
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use request::{PageArgs, ResultArgs};
 
+use crate::clock::Instant;
 use crate::entry::request::{Refused, read_json};
 use crate::mechanics::analysis::{self, Analysis, Verdict, verdicts};
 use crate::mechanics::scene::format::SceneFile;
@@ -139,13 +141,14 @@ pub fn problems(scene: &str) -> String {
 }
 
 /// Finds for which values of a number a step stands, as `drystone vary` does with three digits. `name` is the name of the
-/// number, as `--set` takes it, such as `loads[0].at[0]`, and `frame` counts the steps from 1. Returns a JSON list of
-/// intervals `{ "state", "from", "to" }`; `state` is holds, fails, undecided or no_scene.
+/// number, as `--set` takes it, such as `loads[0].at[0]`, and `frame` counts the steps from 1. After `time_limit`, in seconds,
+/// values that are left are undecided. Returns a JSON list of intervals `{ "state", "from", "to" }`; `state` is holds, fails,
+/// undecided or no_scene.
 ///
 /// # Errors
 /// Returns the problems of the scene as it is given, or a message if it has no such step or the range is empty.
 #[wasm_bindgen]
-pub fn vary(scene: &str, name: &str, from: f64, to: f64, frame: usize) -> Result<String, Refusal> {
+pub fn vary(scene: &str, name: &str, from: f64, to: f64, frame: usize, time_limit: f64) -> Result<String, Refusal> {
     let steps = Scene::from_json(scene)?.frames().len();
     if !(1..=steps).contains(&frame) {
         return Err(format!("frame must be a number from 1 to {steps}").into());
@@ -153,10 +156,15 @@ pub fn vary(scene: &str, name: &str, from: f64, to: f64, frame: usize) -> Result
     if !(from < to && from.is_finite() && to.is_finite()) {
         return Err("from must be less than to".to_owned().into());
     }
+    let end = Instant::now() + Duration::from_secs_f64(time_limit.clamp(0.0, 1e6));
+    let options = analysis::Options { deadline: Some(end), ..analysis::Options::default() };
     let state = |at: &[f64]| {
+        if Instant::now() > end {
+            return State::Undecided;
+        }
         let setting = format!("{name}={}", at[0]).parse::<Setting>();
         let changed = setting.ok().and_then(|own| Scene::from_slice_changed(scene.as_bytes(), None, &[own]).ok());
-        match changed.map(|(scene, _)| verdicts(&scene, &analysis::Options::default())[frame - 1]) {
+        match changed.map(|(scene, _)| verdicts(&scene, &options)[frame - 1]) {
             Some(Verdict::Stable) => State::Holds,
             Some(Verdict::Unstable) => State::Fails,
             Some(Verdict::Undecided) => State::Undecided,

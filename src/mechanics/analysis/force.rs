@@ -37,9 +37,10 @@ impl Contact {
         Some(self.eccentricity()?.abs() <= self.interface.length() / 6.0 * (1.0 + MIDDLE_THIRD_TOL))
     }
 
-    /// Returns the pressure at both ends of an edge interface, N/m², which varies linearly and has the resultant of the normal
-    /// forces. There is no tension: outside of the middle third, only a part of the interface presses. `thickness` is that of
-    /// the structure, in metres. `None` for a corner, without a normal force, and at the very end of an interface.
+    /// Returns the pressure at the two ends of an edge interface, N/m². The pressure varies linearly and has the resultant of
+    /// the normal forces. There is no tension: if the resultant is outside the middle third, only a part of the interface
+    /// presses. `thickness` is the thickness of the structure in metres. `None` for a corner, without a normal force, and if
+    /// the resultant is at an end of the interface.
     pub fn pressure(&self, thickness: f64) -> Option<[f64; 2]> {
         let (off, length) = (self.eccentricity()?, self.interface.length());
         let mean = self.normal_forces.iter().sum::<f64>() / (length * thickness);
@@ -54,7 +55,7 @@ impl Contact {
     }
 }
 
-/// A resultant this far beyond the middle third, relative to it, counts as on its end.
+/// A resultant that is outside the middle third by at most this fraction of a third counts as inside.
 const MIDDLE_THIRD_TOL: f64 = 1e-9;
 
 /// The force and the torque of a robot on the block that it holds.

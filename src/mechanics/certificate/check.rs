@@ -124,7 +124,7 @@ impl Certificate {
             faults.push("the limits are not those of the grips".to_owned());
         }
         if faults.is_empty() {
-            // What locks a joint lies at no outline.
+            // The contacts that lock a joint do not lie at the outlines, so their places are not checked.
             let mut joints = changed.clone();
             joints.contacts.truncate(frame.contacts.len());
             faults = own.place_faults(&joints, &mut 0.0);

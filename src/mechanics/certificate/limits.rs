@@ -78,17 +78,14 @@ impl Limits<'_> {
             MarginKind::FrictionFactor => {
                 (Change { friction_factor: Some(value), ..same }, given.with_friction_factor(value))
             }
-            MarginKind::Sliding | MarginKind::Overturning => {
-                let (locked, structure): (Locked, fn(Assembly) -> Assembly) = match kind {
-                    MarginKind::Sliding => (Locked::Turning, Assembly::without_turning),
-                    _ => (Locked::Sliding, Assembly::without_sliding),
+            MarginKind::Sliding | MarginKind::Overturning | MarginKind::MiddleThird => {
+                let change = match kind {
+                    MarginKind::Sliding => Change { locked: Some(Locked::Turning), ..same },
+                    MarginKind::Overturning => Change { locked: Some(Locked::Sliding), ..same },
+                    _ => Change { kernel: Some(self.bare.kernel.max(MIDDLE_THIRD)), ..same },
                 };
-                let change = Change { load_factor: Some(value), locked: Some(locked), ..same };
-                (change, structure(given).with_load_factor(value))
-            }
-            MarginKind::MiddleThird => {
-                let kernel = Some(self.bare.kernel.max(MIDDLE_THIRD));
-                (Change { load_factor: Some(value), kernel, ..same }, given.with_middle_third().with_load_factor(value))
+                let changed = kind.about().structure.map_or(given.clone(), |structure| structure(given));
+                (Change { load_factor: Some(value), ..change }, changed.with_load_factor(value))
             }
             MarginKind::Robots => (same, given),
         }

@@ -323,10 +323,10 @@ pub struct Change {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Locked {
-    /// No body can turn: a grip on each, after the others, carries any torque and no force.
+    /// No body can turn. Each placed body has one more grip, which carries a torque of any size, but no force.
     Turning,
-    /// No contact can slide: its μ is 0, and two contacts with one point at the middle of its points, after all others, have
-    /// t and −t as their normals, and μ = 0.
+    /// No contact can slide. Its μ is 0. After all contacts follow two more for each of them, with one point at its middle, the
+    /// normals t and −t, and μ = 0.
     Sliding,
 }
 

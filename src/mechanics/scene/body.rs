@@ -168,8 +168,8 @@ pub struct Load {
     pub torque: f64,
     /// Whether the load keeps its amount when the load factor changes.
     pub is_fixed: bool,
-    /// The unit direction in which the force keeps its amount when the load factor changes, if it does so in one direction
-    /// only. The rest of the force, and the torque, change.
+    /// A unit vector if only the part of the force along it is fixed: the load factor multiplies the rest of the force, and
+    /// the torque. `None` if all of the load is fixed, or nothing of it.
     pub fixed_along: Option<Vector>,
     /// The index of the load in the list of the file. The pressure of one entry acts on several edges, as one load on
     /// each.
@@ -189,7 +189,7 @@ impl Load {
         }
     }
 
-    /// Returns the same load with the parts that are not fixed times a factor.
+    /// Multiplies all parts of the load that are not fixed by a factor.
     pub fn times_factor(mut self, factor: f64) -> Load {
         if !self.is_fixed {
             let fixed = self.fixed_force();
@@ -199,12 +199,13 @@ impl Load {
         self
     }
 
-    /// Returns the fixed part of the load and the other one; `None` for a part that is not there.
+    /// Returns the fixed part of the load, and the part that the load factor multiplies. `None` for a part that the load does
+    /// not have.
     pub(crate) fn parts(&self) -> [Option<Load>; 2] {
-        let Some(along) = self.fixed_along else {
+        if self.fixed_along.is_none() {
             return if self.is_fixed { [Some(*self), None] } else { [None, Some(*self)] };
-        };
-        let force = along * along.dot(&self.force);
+        }
+        let force = self.fixed_force();
         let fixed = Load { force, torque: 0.0, is_fixed: true, fixed_along: None, ..*self };
         [Some(fixed), Some(Load { force: self.force - force, fixed_along: None, ..*self })]
     }

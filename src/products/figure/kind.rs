@@ -43,7 +43,7 @@ pub(crate) fn cheap_margins(scene: &Scene) -> Option<MarginKinds> {
     let blocks = scene.frames.iter().flat_map(|frame| &frame.placed).map(size).sum::<usize>();
     // Each block may lie on every part of the ground.
     match blocks.max(scene.ground.len()) {
-        count if count <= all => Some(MarginKinds::ALL),
+        count if count <= all => Some(MarginKinds::AS_IT_IS),
         count if count <= main => Some(MarginKinds::new(&[MarginKind::LoadFactor, MarginKind::Tilt])),
         count if count <= one && scene.frames.len() == 1 && is_loaded(&scene.frames[0]) => {
             Some(MarginKinds::new(&[MarginKind::LoadFactor]))

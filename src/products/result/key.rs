@@ -337,9 +337,9 @@ pub static KEYS: &[Key] = &[
                 key("force", Pair, "force on `bodies[0]`").unit("N"),
             ]),
             key("friction_used", Number, "friction force as a share of the largest possible friction μN, from 0 to 1; 0 without friction; in a falling frame for the balance that includes the missing forces"),
-            key("eccentricity", Number, "distance of the resultant from the middle of the interface, positive along (−n_y, n_x)").unit("m").when(IF_EDGE_PRESSES),
+            key("eccentricity", Number, "distance of the resultant from the middle of the interface, positive along (−n_y, n_x); in a falling frame for the balance that includes the missing forces").unit("m").when(IF_EDGE_PRESSES),
             key("in_middle_third", Flag, "whether the resultant lies in the middle third of the interface").when(IF_EDGE_PRESSES),
-            key("pressure", Pair, "pressure at the two ends: it varies linearly, has this resultant, and there is no tension").unit("N/m²").when("if an edge presses, unless the resultant is at an end"),
+            key("pressure", Pair, "pressure at the two ends, if it varies linearly and there is no tension; in a falling frame for the balance that includes the missing forces").unit("N/m²").when("if an edge presses, unless the resultant is at an end"),
         ]),
         key("robots", Objects, "robots that hold a block in this frame, in the order of the scene").of(&[
             key("id", Text, "id of the robot"),

@@ -1,7 +1,7 @@
 //! [`map`] draws the regions of two numbers, [`curve`] a number of the result over one number that varies.
 
-use super::{Question, axis_name, levels, short};
-use crate::mechanics::vary::{Field, Map, Range, Sample, State, intervals};
+use super::{Question, axis_title, levels, short};
+use crate::mechanics::vary::{Map, Range, Sample, State, ValueGrid, intervals};
 use crate::pictures::chart::round_step;
 use crate::pictures::drawing::{
     Anchor, Colour, Drawing, Face, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Text, Theme, text,
@@ -12,8 +12,8 @@ use crate::products::wording::number::digits;
 const WIDTH: f64 = 560.0;
 const MARGIN: f64 = 10.0;
 const RATIO: f64 = 0.78;
-/// The width of a line of equal values, pixels.
-const ISOLINE: f64 = 0.9;
+/// The width of an isoline, pixels.
+const ISOLINE_WIDTH: f64 = 0.9;
 
 /// A plane with two axes on a page.
 struct Plane<'a> {
@@ -132,7 +132,7 @@ impl<'a> Plane<'a> {
                 Mark::Dot => Path::filled(Outline::circle(at, 0.3 * size), key.colour),
                 Mark::Line => Path::stroked(
                     Outline::line([at.moved(-1.5 * half, 0.0), at.moved(1.5 * half, 0.0)]),
-                    Stroke::new(key.colour, ISOLINE),
+                    Stroke::new(key.colour, ISOLINE_WIDTH),
                 ),
                 Mark::Square => {
                     Path::filled(Outline::ring(square), key.colour).with_stroke(Stroke::new(theme.faint, 0.7))
@@ -199,9 +199,15 @@ fn letters(theme: &Theme, state: State) -> Colour {
     theme.letters_on(colour(theme, state), Some(own))
 }
 
-/// Draws the regions of two numbers, with their border, how the structure falls, and the lines of equal values of a number
+/// Draws a map of two numbers: its regions, their border and their names. With `field`, it also draws the isolines of a number
 /// of the result. `width` is in pixels.
-pub(crate) fn map(question: &Question, map: &Map, field: Option<&Field>, theme: &Theme, width: Option<f64>) -> Drawing {
+pub(crate) fn map(
+    question: &Question,
+    map: &Map,
+    field: Option<&ValueGrid>,
+    theme: &Theme,
+    width: Option<f64>,
+) -> Drawing {
     let [x, y] = &map.ranges;
     let ranges = [x.shown(), y.shown()];
     let mut plane = Plane::new(theme, width, ranges, widest(y.from, y.to, theme));
@@ -234,11 +240,11 @@ pub(crate) fn map(question: &Question, map: &Map, field: Option<&Field>, theme: 
         let line = Path::stroked(border, Stroke::new(theme.ink, 1.6));
         plane.items.push(Item::Group(Group::with_class("border").with(line)));
     }
-    // The numbers of lines of equal values come first: a name finds another place, or none.
+    // Isolines and their numbers are drawn first. The names of the regions must leave these numbers free.
     let mut taken: Vec<[PagePoint; 2]> = Vec::new();
     let ordinate = question.ordinate.as_deref().unwrap_or_default();
     if let Some(field) = field {
-        isolines(&mut plane, field, &axis_name(ordinate, &question.units), &mut taken);
+        isolines(&mut plane, field, &axis_title(ordinate, &question.units), &mut taken);
     }
     // A name in the middle of each region, and of each way to fall, where it fits.
     for (state, name, at, room) in names(question, map) {
@@ -269,7 +275,7 @@ pub(crate) fn map(question: &Question, map: &Map, field: Option<&Field>, theme: 
             plane.words(middle, &lines, letters(theme, state), Face::Sans);
         }
     }
-    let lines = format!("lines: {}", axis_name(ordinate, &question.units));
+    let lines = format!("lines: {}", axis_title(ordinate, &question.units));
     if field.is_some() {
         keys.push(Key { words: &lines, colour: theme.stands, mark: Mark::Line });
     }
@@ -282,13 +288,14 @@ pub(crate) fn map(question: &Question, map: &Map, field: Option<&Field>, theme: 
         plane.items.push(Item::Group(Group::with_class("given").titled("the scene as given").with(dot)));
         keys.push(Key { words: "the scene as given", colour: theme.ink, mark: Mark::Dot });
     }
-    let name = |range: &Range| axis_name(&range.name, &question.units);
+    let name = |range: &Range| axis_title(&range.name, &question.units);
     plane.axes([&name(x), &name(y)], [x.is_whole, y.is_whole]);
     plane.finish(&keys, format!("{}: {} and {}", question.name, x.name, y.name), question.map_lines(map).join(" "))
 }
 
-/// Draws the lines of equal values of a number, with the value on each, where it meets no other.
-fn isolines(plane: &mut Plane<'_>, field: &Field, name: &str, taken: &mut Vec<[PagePoint; 2]>) {
+/// Draws the isolines of a number of the result. Each has its value at its middle, or at the nearest place where the value
+/// meets no other text; an isoline without such a place has none. `taken` lists the places of texts.
+fn isolines(plane: &mut Plane<'_>, field: &ValueGrid, name: &str, taken: &mut Vec<[PagePoint; 2]>) {
     let (theme, size) = (plane.theme, plane.size);
     let (ink, below) = (theme.stands, colour(theme, State::Holds));
     let levels = levels(field);
@@ -307,7 +314,6 @@ fn isolines(plane: &mut Plane<'_>, field: &Field, name: &str, taken: &mut Vec<[P
         lines.sort_by(|a, b| long(b).total_cmp(&long(a)));
         let words = number(level, step);
         let (half, high) = (0.5 * text::width(&words, Face::Sans, size) + 2.0, 0.6 * size);
-        // The value stands at the middle of the longest line, or as near to it as there is room.
         if let Some(line) = lines.first().filter(|line| long(line) > 4.0 * half) {
             let mut places: Vec<usize> = (0..line.len()).collect();
             places.sort_by_key(|at| at.abs_diff(line.len() / 2));
@@ -320,14 +326,15 @@ fn isolines(plane: &mut Plane<'_>, field: &Field, name: &str, taken: &mut Vec<[P
                 !taken.iter().any(|[a, b]| from.x < b.x && a.x < to.x && from.y < b.y && a.y < to.y)
             });
             if let Some(room) = free {
-                taken.push(room);
+                // Other texts keep a distance.
+                taken.push([room[0].moved(-0.4 * size, 0.0), room[1].moved(0.4 * size, 0.0)]);
                 let at = PagePoint::new(room[0].x + half, room[0].y + high + 0.35 * size);
                 let words = Text::new(at, words, Face::Sans, size, theme.letters_on(below, Some(ink)));
                 labels.push(words.anchored(Anchor::Middle).with_halo(below, 4.0));
             }
         }
         for line in lines {
-            group = group.with(Path::stroked(Outline::line(line), Stroke::new(ink, ISOLINE)));
+            group = group.with(Path::stroked(Outline::line(line), Stroke::new(ink, ISOLINE_WIDTH)));
         }
     }
     for label in labels {
@@ -396,7 +403,7 @@ pub(crate) fn curve(
     width: Option<f64>,
 ) -> Drawing {
     let ordinate = question.ordinate.as_deref().unwrap_or_default();
-    let ordinate_name = axis_name(ordinate, &question.units);
+    let ordinate_title = axis_title(ordinate, &question.units);
     let value = |sample: &Sample| sample.found.value.filter(|value| value.is_finite());
     let values: Vec<f64> = samples.iter().filter_map(value).collect();
     let (least, most) =
@@ -437,9 +444,9 @@ pub(crate) fn curve(
     }
     if !outline.segments.is_empty() {
         let line = Path::stroked(outline, Stroke::new(theme.ink, 1.8));
-        plane.items.push(Item::Group(Group::with_class("curve").titled(&*ordinate_name).with(line)));
+        plane.items.push(Item::Group(Group::with_class("curve").titled(&*ordinate_title).with(line)));
     }
-    plane.axes([&axis_name(&range.name, &question.units), &ordinate_name], [range.is_whole, false]);
+    plane.axes([&axis_title(&range.name, &question.units), &ordinate_title], [range.is_whole, false]);
     let title = format!("{}: {ordinate} over {}", question.name, range.name);
     plane.finish(&keys, title, question.lines(range, samples).join(" "))
 }

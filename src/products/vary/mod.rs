@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 pub(crate) use chart::{curve, map};
 
-use crate::mechanics::vary::{Field, Interval, Map, Range, Sample, State, intervals};
+use crate::mechanics::vary::{Interval, Map, Range, Sample, State, ValueGrid, intervals};
 use crate::pictures::chart::round_step;
 use crate::products::wording::number::digits;
 use crate::text::capitalised;
@@ -62,7 +62,7 @@ impl Question {
         [head].into_iter().chain(rows).chain([format!("  {}", self.proof(samples))]).collect()
     }
 
-    /// Says the same as [`Question::lines`] in a title and a paragraph, for a report.
+    /// Returns the intervals of one number as a title and a paragraph, for a report.
     pub(crate) fn paragraph(&self, range: &Range, samples: &[Sample]) -> [String; 2] {
         let goal = self.goal.as_ref().map_or(String::new(), |goal| format!(", {goal}"));
         let parts = intervals(samples).into_iter().map(|interval| {
@@ -74,7 +74,7 @@ impl Question {
         [title, format!("{}. {}.", capitalised(&said), capitalised(&self.proof(samples)))]
     }
 
-    /// Says the same as [`Question::map_lines`] in a title and a paragraph, for a report.
+    /// Returns what a map shows as a title and a paragraph, for a report.
     pub(crate) fn map_paragraph(&self, map: &Map) -> [String; 2] {
         let lines = self.map_lines(map);
         let title = lines[0].strip_prefix(&format!("{}: ", self.name)).unwrap_or(&lines[0]).to_owned();
@@ -120,7 +120,7 @@ impl Question {
     }
 
     /// Writes the outlines of the region that holds, all samples, and the lines of equal values as JSON.
-    pub(crate) fn map_json(&self, map: &Map, field: Option<&Field>) -> Value {
+    pub(crate) fn map_json(&self, map: &Map, field: Option<&ValueGrid>) -> Value {
         let mut text = self.head(&map.ranges);
         let rings = map.region(State::Holds).into_iter();
         let rings = rings.map(|ring| ring.into_iter().map(|(pair, _)| pair).collect::<Vec<_>>());
@@ -134,13 +134,13 @@ impl Question {
     }
 }
 
-/// The number of lines of equal values on a map, about.
-const ISOLINES: f64 = 9.0;
+/// A map has about this many isolines: lines along which a number of the result has the same value.
+const ISOLINE_COUNT: f64 = 9.0;
 
-/// Returns round values, at equal distances, between the least and the largest value on a map.
-pub(crate) fn levels(field: &Field) -> Vec<f64> {
+/// Returns the values of the isolines: round numbers at equal distances between the least and the largest value on the map.
+pub(crate) fn levels(field: &ValueGrid) -> Vec<f64> {
     let Some((low, high)) = field.extent().filter(|(low, high)| high > low) else { return Vec::new() };
-    let step = round_step((high - low) / ISOLINES);
+    let step = round_step((high - low) / ISOLINE_COUNT);
     let (first, last) = (libm::ceil(low / step) as i64, libm::floor(high / step) as i64);
     (first..=last).map(|number| number as f64 * step).collect()
 }
@@ -172,7 +172,7 @@ fn entries(samples: &[Sample]) -> Value {
     json!(samples.iter().map(entry).collect::<Vec<_>>())
 }
 
-/// Writes the values of an interval.
+/// Writes the two ends of an interval.
 fn values(interval: &Interval) -> String {
     let (from, to) = (short(interval.from), short(interval.to));
     if interval.from == interval.to { format!("at {from}") } else { format!("{from} to {to}") }
@@ -184,8 +184,9 @@ fn short(value: f64) -> String {
     if text.len() > 9 { digits(value) } else { text.replace('-', "−") }
 }
 
-/// Returns the name of a number for an axis, with its unit. `units` has those of length and of force.
-pub(crate) fn axis_name(name: &str, units: &[String; 2]) -> String {
+/// Returns the title of an axis: the name of a number and its unit. `units` has the symbols of the units of length and of
+/// force.
+pub(crate) fn axis_title(name: &str, units: &[String; 2]) -> String {
     let [length, force] = units;
     match name {
         "friction" => "friction coefficient".into(),
@@ -198,7 +199,7 @@ pub(crate) fn axis_name(name: &str, units: &[String; 2]) -> String {
             format!("{name}, {length}")
         }
         "placement" => "placement error, m".into(),
-        // A number of a list or of a body is named by its path.
+        // A path, such as `blocks.pier.weight`: its last key has the unit.
         path if path.contains(['.', '[']) => {
             let key = path.trim_end_matches(|c: char| c == '[' || c == ']' || c.is_ascii_digit());
             match key.rsplit('.').next().unwrap_or(key) {

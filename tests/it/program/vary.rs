@@ -258,6 +258,15 @@ fn a_report_has_what_varies_with_its_picture() {
         text("map.md").contains("each point of the border lies between two of them")
             || text("map.md").contains("Each point of the border")
     );
+    // A scene that lacks the number is listed as refused; the others have their part.
+    let other = fs::read_to_string(bench.path("stands.json")).expect("there").replace("\"lintel\"", "\"beam\"");
+    fs::write(bench.path("other.json"), other).expect("written");
+    let mut command = bench.command("report stands.json other.json -o both.html --set kernel=0.1 --vary");
+    command.arg("blocks.lintel.friction=0.1..0.9 --curve tilt");
+    let ran = super::ran(command);
+    assert!(ran.code == 2 && ran.err.contains("the scene has no entry \"lintel\""), "{}", ran.err);
+    let page = text("both.html");
+    assert!(page.contains("--curve tilt --set kernel=0.1") && page.contains("other.json"), "{}", ran.err);
     let ran = vary("frictionn=0.1..0.9", "wrong.md");
     assert!(
         ran.code == 2 && ran.err.contains("unknown key `frictionn`") && !bench.path("wrong.md").exists(),

@@ -1,7 +1,8 @@
-//! [`Store`]: the results of `drystone vary`, one JSON line each, from which a later run goes on.
+//! [`ResultFile`]: a file with the results of `drystone vary`. A later run of the same question reads its results and adds its
+//! own.
 //!
-//! The first line says what was asked. Each other line has the values, what was found there, the number of the result, and
-//! words. A line that a stopped run left incomplete is ignored.
+//! The first line describes the question. Each further line is the result at one value, or at one pair of values. If a run
+//! was stopped while it wrote a line, the next run removes this incomplete line.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
@@ -15,27 +16,28 @@ use crate::entry::cli::error::CliError;
 use crate::mechanics::vary::{Found, State};
 use crate::read::file;
 
-/// The values as bits, whether words are wanted, and whether the number of the result is.
+/// What identifies a result: the bits of the values, whether the way of falling was asked for, and whether the number of the
+/// result was asked for.
 pub(super) type Key = (Vec<u64>, bool, bool);
 
-/// Returns the key of a result.
+/// Returns the key of the result at the values `at`.
 pub(super) fn key(at: &[f64], has_words: bool, has_number: bool) -> Key {
     (at.iter().map(|value| value.to_bits()).collect(), has_words, has_number)
 }
 
-/// Results that are kept in a file.
+/// A file with results.
 #[derive(Debug)]
-pub(crate) struct Store {
+pub(crate) struct ResultFile {
     known: BTreeMap<Key, Found>,
     file: Mutex<File>,
 }
 
-impl Store {
-    /// Opens a file, or begins it. `asked` has all on which the results depend.
+impl ResultFile {
+    /// Opens the file, or creates it. `asked` describes the question: all that the results depend on.
     ///
     /// # Errors
-    /// If the file has the results of another question, or cannot be read or written.
-    pub(crate) fn open(path: &Path, asked: &str) -> Result<Store, CliError> {
+    /// If the file belongs to another question, or cannot be read or written.
+    pub(crate) fn open(path: &Path, asked: &str) -> Result<ResultFile, CliError> {
         let shown = path.display();
         let text = match path.exists() {
             true => file::text(path).map_err(|error| CliError::not_read(&shown, error))?,
@@ -67,14 +69,14 @@ impl Store {
         if kept == 0 {
             file.write_all(head.as_bytes()).map_err(unwritten)?;
         }
-        Ok(Store { known, file: Mutex::new(file) })
+        Ok(ResultFile { known, file: Mutex::new(file) })
     }
 
     pub(super) fn get(&self, key: &Key) -> Option<Found> {
         self.known.get(key).cloned()
     }
 
-    /// Adds a result. If it cannot be written, a later run finds it again.
+    /// Adds a result. If it cannot be written, the run goes on; a later run then computes the result again.
     pub(super) fn add(&self, at: &[f64], (_, has_words, has_number): &Key, found: &Found) {
         let value = match found.value {
             Some(value) if value.is_infinite() => json!("unbounded"),
@@ -88,7 +90,7 @@ impl Store {
     }
 }
 
-/// Reads a line.
+/// Reads a line. `None` if it is no result.
 fn read(line: &str) -> Option<(Key, Found)> {
     let entry: Value = serde_json::from_str(line).ok()?;
     let at: Option<Vec<f64>> = entry[0].as_array()?.iter().map(Value::as_f64).collect();

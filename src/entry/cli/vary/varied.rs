@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::store::{self, Store};
+use super::store::{self, ResultFile};
 use crate::clock::Instant;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
@@ -11,7 +11,7 @@ use crate::entry::request::AnalysisArgs;
 use crate::mechanics::analysis::{Accuracy, Analysis, MarginKind, MarginKinds, Options, Verdict, verdicts};
 use crate::mechanics::scene::format::{Expectation, SceneFile};
 use crate::mechanics::scene::{Scene, SceneError, Setting, number_in};
-use crate::mechanics::vary::{Field, Found, Map, Range, Sample, State, scan};
+use crate::mechanics::vary::{Found, Map, Range, Sample, State, ValueGrid, scan};
 use crate::pictures::drawing::{Drawing, Theme};
 use crate::products::figure::Fall;
 use crate::products::result;
@@ -47,12 +47,12 @@ pub(crate) struct Varied {
     goal: Option<Goal>,
     level: AnalysisArgs,
     options: Options,
-    /// The results of earlier runs.
-    pub(super) store: Option<Store>,
+    /// The file with the results of this run and of earlier ones.
+    pub(super) store: Option<ResultFile>,
     pub(crate) question: Question,
 }
 
-/// What is asked of a scene beside its verdict.
+/// What is asked of a scene in addition to its verdict.
 #[derive(Clone, Copy, Default)]
 struct Wanted {
     /// How it falls.
@@ -61,7 +61,7 @@ struct Wanted {
     number: bool,
 }
 
-/// The numbers of the result that a picture shows: along a curve, or as lines on a map.
+/// The number of the result that a picture shows: as a curve over one number, or as isolines on a map.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Ordinate<'o> {
     pub(crate) curve: Option<&'o str>,
@@ -173,7 +173,8 @@ impl Varied {
             store: None,
             question,
         };
-        // What gives a scene neither at the ends nor in the middle is refused at once: most often a name that is not there.
+        // If there is no valid scene at either end of the ranges nor in their middle, return the first problem now. The usual
+        // cause is a wrong name.
         let ways = [0.0, 1.0, 0.5].map(|share| {
             let value = |range: &Range| {
                 let value = range.from + share * (range.to - range.from);
@@ -181,7 +182,7 @@ impl Varied {
             };
             varied.scene(&varied.ranges.iter().map(value).collect::<Vec<f64>>())
         });
-        // Where a step is meant to fall, it holds outside of an interval.
+        // A step that is meant to fall holds at the values where it falls. These values need not be an interval.
         let is_meant = |scene: &Scene| scene.frames.iter().any(|frame| frame.expected == Some(Expectation::Unstable));
         if ways.iter().flatten().any(|(scene, _)| is_meant(scene)) {
             varied.question.is_interval = false;
@@ -195,7 +196,7 @@ impl Varied {
         }
     }
 
-    /// Returns all on which the results depend, as text.
+    /// Describes the question: all that the results depend on.
     pub(super) fn asked(&self) -> String {
         let scene = match &self.base {
             Base::File(bytes) => format!("scene {:016x}", text::hash(bytes)),
@@ -212,7 +213,7 @@ impl Varied {
 
     /// Returns a name for the scene with these values, such as `friction=0.5 kernel=0.1.json`, and the bytes of its file. `None`
     /// if the values give no valid scene.
-    pub(super) fn kept(&self, at: &[f64]) -> Option<(String, Vec<u8>)> {
+    pub(super) fn scene_file(&self, at: &[f64]) -> Option<(String, Vec<u8>)> {
         let values = self.ranges.iter().zip(at).map(|(range, value)| format!("{}={value}", range.name));
         let name = values.collect::<Vec<_>>().join(" ").replace(['/', '\\', ':'], "_");
         Some((name + ".json", self.scene(at).ok()?.1.to_json().into_bytes()))
@@ -242,7 +243,7 @@ impl Varied {
         scene.map_err(|problems| CliError::Scene { name: self.question.name.clone(), problems })
     }
 
-    /// Examines the scene with these values, or takes what an earlier run found.
+    /// Returns the result of an earlier run at these values, or else examines the scene.
     fn found(&self, at: &[f64], wanted: Wanted) -> Found {
         let key = store::key(at, wanted.words, wanted.number);
         let known = self.store.as_ref().and_then(|store| store.get(&key));
@@ -252,7 +253,7 @@ impl Varied {
                 return Found { state: State::Undecided, value: None, words };
             }
             let found = self.examined(at, wanted);
-            // What the time limit ended is found anew.
+            // Do not save a result that the time limit may have cut short.
             if let Some(store) = self.store.as_ref().filter(|_| !self.is_late()) {
                 store.add(at, &key, &found);
             }
@@ -358,7 +359,7 @@ fn first_problem(why: &CliError) -> String {
 /// What was found for one number, or for two.
 pub(crate) enum Answer {
     One(Vec<Sample>),
-    Two(Box<Map>, Option<Field>),
+    Two(Box<Map>, Option<ValueGrid>),
 }
 
 impl Varied {
@@ -375,7 +376,8 @@ impl Varied {
         match &self.ranges[..] {
             [x, y] => {
                 let map = Map::new([x.clone(), y.clone()], |at, words| of(at, Wanted { words, number: false }));
-                let field = has_number.then(|| Field::new(&map, |at| of(at, Wanted { words: false, number: true })));
+                let field =
+                    has_number.then(|| ValueGrid::new(&map, |at| of(at, Wanted { words: false, number: true })));
                 Answer::Two(Box::new(map), field)
             }
             ranges => {

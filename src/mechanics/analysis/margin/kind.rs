@@ -33,14 +33,14 @@ pub enum MarginKind {
     /// smooth. Its interval has no upper end. The margin is the lower end. One divided by it is the factor of safety of
     /// geotechnics. A frame without friction has no such interval.
     FrictionFactor,
-    /// The factor on the listed loads, at least 0, if no block can turn: each is held by a torque of any size, but by no
-    /// force. The upper end is the margin: the factor of safety against sliding.
+    /// The factor on the listed loads, at least 0, for the same structure in which no block can turn: a torque of any size
+    /// holds each block, but no force does. The upper end is the margin. It is the factor of safety against sliding.
     Sliding,
-    /// The factor on the listed loads, at least 0, if no joint can slide, smooth ones neither. The upper end is the margin:
-    /// the factor of safety against overturning.
+    /// The factor on the listed loads, at least 0, for the same structure in which no joint can slide, not even a smooth one.
+    /// The upper end is the margin. It is the factor of safety against overturning.
     Overturning,
-    /// The factor on the listed loads, at least 0, with which forces exist that lie in the middle third of every joint. The
-    /// upper end is the margin: the loads of the permissible state.
+    /// The factor on the listed loads, at least 0, if the force at every joint must lie in its middle third. The upper end is
+    /// the margin. It gives the loads of the permissible state.
     MiddleThird,
     /// The limits of every robot that holds a block, each varied alone. The lower ends are the margins.
     Robots,
@@ -75,7 +75,7 @@ pub(crate) struct About {
     pub present: Option<f64>,
     /// Whether the parameter has a meaning for a component; `None` if it has one for every component.
     pub(super) applies: Option<fn(&Assembly) -> bool>,
-    /// The structure of which the margin is that of another one: the same bodies and loads, with other conditions.
+    /// Changes the structure, if the margin belongs to a structure with the same bodies and loads but other conditions.
     pub(crate) structure: Option<fn(Assembly) -> Assembly>,
     /// The change of a component for a value of the parameter.
     pub(in crate::mechanics::analysis) setting: fn(f64) -> Setting,
@@ -383,6 +383,16 @@ pub struct MarginKinds {
 impl MarginKinds {
     /// The set of all margins.
     pub const ALL: MarginKinds = MarginKinds { bits: (1 << MarginKind::ALL.len()) - 1 };
+
+    /// The margins of the structure as it is: all but [`MarginKind::Sliding`], [`MarginKind::Overturning`] and
+    /// [`MarginKind::MiddleThird`].
+    #[cfg(any(feature = "cli", feature = "wasm"))]
+    pub(crate) const AS_IT_IS: MarginKinds = {
+        let others = [MarginKind::Sliding, MarginKind::Overturning, MarginKind::MiddleThird];
+        MarginKinds {
+            bits: MarginKinds::ALL.bits & !(1 << others[0] as u16 | 1 << others[1] as u16 | 1 << others[2] as u16),
+        }
+    };
 
     /// Creates a set of margins from a list.
     pub fn new(list: &[MarginKind]) -> MarginKinds {

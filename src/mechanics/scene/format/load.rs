@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::declare::{entry, word};
 use super::{Map, Pair, vector};
+use crate::geometry::{Vector, quarter_turn};
 use crate::read::{Expected, Node, NodeKind, Read, Reader, Trail};
 
 entry! {
@@ -30,31 +31,39 @@ entry! {
         /// Two points [x, y], in the length unit of the scene, on the free outline of the blocks: the pressure acts on
         /// all edges between them that touch no other body.
         between: Vec<Pair> [length(min = 2, max = 2)],
-        /// Whether the load keeps its amount when the load factor changes; "vertical" or "horizontal": only its part along
-        /// gravity, or across it. Default false.
+        /// Whether the load keeps its amount when the load factor changes. With "vertical", only the part of its force along
+        /// gravity does; with "horizontal", only the part across gravity. Default false.
         fixed: Option<FixedLoad> [extend("default" = false)],
     }
 }
 
-/// What the load factor does not change of a load.
+/// Which part of a load is fixed: the load factor does not multiply it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(untagged)]
 pub enum FixedLoad {
-    /// All of it, or nothing.
+    /// All of the load is fixed, or nothing of it.
     All(bool),
-    /// The part of its force in one direction.
+    /// Only the part of the force in one direction is fixed.
     Part(FixedPart),
 }
 
 word! {
-    /// A direction in which a load is fixed. The torque belongs to the other part.
+    /// The direction of the fixed part of a force. The load factor multiplies the rest of the force, and the torque.
     #[derive(serde::Deserialize)]
     pub enum FixedPart {
         /// Along gravity.
         Vertical = "vertical",
         /// At right angles to gravity.
         Horizontal = "horizontal",
+    }
+}
+
+impl FixedPart {
+    /// Returns the unit vector of this direction. Without gravity, down is (0, −1).
+    pub(crate) fn direction(self, gravity: Vector) -> Vector {
+        let down = if gravity.norm() > 0.0 { gravity.normalize() } else { -Vector::y() };
+        if self == FixedPart::Vertical { down } else { quarter_turn(down) }
     }
 }
 

@@ -6,8 +6,9 @@
 use std::fmt;
 use std::str::FromStr;
 
+use super::load::FixedPart;
 use super::unit::split_unit;
-use crate::geometry::{Vector, quarter_turn};
+use crate::geometry::Vector;
 use crate::mechanics::scene::{Code, Problem, SceneError};
 use crate::read::path::Segment;
 use crate::read::tree::{Entry, List, MAX_DEPTH, Object, Tree, parse};
@@ -236,8 +237,8 @@ fn item<'n>(tree: &Tree<'_>, list: &List, name: &'n str, path: &Path) -> Result<
     })
 }
 
-/// Returns a number of a JSON text by its name, as in a [`Setting`], or by its name in the last entry of the list `of_last`:
-/// the smallest one of an object of numbers, infinite for `"unbounded"`.
+/// Returns the number with this name in a JSON text; names are those of a [`Setting`]. With `of_last`, the name starts at the
+/// last entry of the list with this key. If the value is an object of numbers, returns the smallest. `"unbounded"` is infinite.
 pub(crate) fn number_in(json: &str, of_last: Option<&str>, name: &str) -> Option<f64> {
     let tree = parse(json).ok()?;
     let start = match of_last {
@@ -247,7 +248,7 @@ pub(crate) fn number_in(json: &str, of_last: Option<&str>, name: &str) -> Option
             _ => return None,
         },
     };
-    amount(&tree, at(&tree, start, name)?)
+    smallest(&tree, at(&tree, start, name)?)
 }
 
 /// Returns the value with this name as seen from `node`.
@@ -267,12 +268,13 @@ fn at<'n, 't>(tree: &'n Tree<'t>, node: &'n Node<'t>, name: &str) -> Option<&'n 
     }
 }
 
-fn amount(tree: &Tree<'_>, node: &Node<'_>) -> Option<f64> {
+/// Returns a number, or the smallest number of an object.
+fn smallest(tree: &Tree<'_>, node: &Node<'_>) -> Option<f64> {
     match &node.kind {
         NodeKind::Number(number) => Some(*number),
         NodeKind::Text(word) if word == "unbounded" => Some(f64::INFINITY),
         NodeKind::Object(sides) => {
-            let sides = tree.entries(sides).iter().map(|side| amount(tree, &side.value));
+            let sides = tree.entries(sides).iter().map(|side| smallest(tree, &side.value));
             sides.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::min)
         }
         _ => None,
@@ -282,11 +284,10 @@ fn amount(tree: &Tree<'_>, node: &Node<'_>) -> Option<f64> {
 /// Turns gravity by an angle in degrees, positive anticlockwise.
 fn tilt(tree: &mut Tree<'_>, text: &str, degrees: f64) -> Result<(), Box<Problem>> {
     let pair = |tree: &Tree<'_>| {
-        let NodeKind::List(list) = &entry(tree, &tree.root, "gravity")?.value.kind else { return None };
-        let [Node { kind: NodeKind::Number(x), .. }, Node { kind: NodeKind::Number(y), .. }] = tree.items(list) else {
-            return None;
-        };
-        Some((list.0.start, *x, *y))
+        let gravity = &entry(tree, &tree.root, "gravity")?.value;
+        let NodeKind::List(list) = &gravity.kind else { return None };
+        let vector = vector(tree, gravity)?;
+        Some((list.0.start, vector.x, vector.y))
     };
     if pair(tree).is_none() {
         tree.root = put(tree, text, tree.root.clone(), ("gravity", "[0, -9.81]"), &mut Path::default())?;
@@ -299,21 +300,17 @@ fn tilt(tree: &mut Tree<'_>, text: &str, degrees: f64) -> Result<(), Box<Problem
     Ok(())
 }
 
-/// Returns the unit vector of the direction in which a load is fixed: along gravity, or across it.
-fn fixed_direction(tree: &Tree<'_>, part: &str) -> Vector {
-    let gravity = match entry(tree, &tree.root, "gravity").map(|entry| &entry.value.kind) {
-        Some(NodeKind::List(list)) => match tree.items(list) {
-            [Node { kind: NodeKind::Number(x), .. }, Node { kind: NodeKind::Number(y), .. }] => Vector::new(*x, *y),
-            _ => Vector::zeros(),
-        },
-        _ => Vector::zeros(),
-    };
-    let down = Some(gravity).filter(|down| down.norm() > 0.0).map_or(-Vector::y(), |down| down.normalize());
-    if part == "vertical" { down } else { quarter_turn(down) }
+/// Returns a list of two numbers as a vector. `None` for another value.
+fn vector(tree: &Tree<'_>, node: &Node<'_>) -> Option<Vector> {
+    let NodeKind::List(list) = &node.kind else { return None };
+    match tree.items(list) {
+        [Node { kind: NodeKind::Number(x), .. }, Node { kind: NodeKind::Number(y), .. }] => Some(Vector::new(*x, *y)),
+        _ => None,
+    }
 }
 
-/// Multiplies the forces, torques and pressures of all loads that are not fixed, and the other part of those that are fixed
-/// in one direction.
+/// Multiplies the forces, torques and pressures of all loads that are not fixed. Of a load of which only a part is fixed,
+/// multiplies the rest. Refuses such a pressure.
 fn multiply_loads(tree: &mut Tree<'_>, factor: f64) -> Result<(), Box<Problem>> {
     let Some(NodeKind::List(loads)) = entry(tree, &tree.root, "loads").map(|entry| entry.value.kind.clone()) else {
         return Ok(());
@@ -333,13 +330,16 @@ fn multiply_loads(tree: &mut Tree<'_>, factor: f64) -> Result<(), Box<Problem>> 
     for load in tree.items(&loads).to_vec() {
         let fixed = entry(tree, &load, "fixed").map(|fixed| fixed.value.kind.clone());
         let is_fixed = fixed == Some(NodeKind::Flag(true));
-        let direction = match &fixed {
-            Some(NodeKind::Text(part)) => Some(fixed_direction(tree, part)),
+        let gravity = entry(tree, &tree.root, "gravity").and_then(|entry| vector(tree, &entry.value));
+        let part = match &fixed {
+            Some(NodeKind::Text(part)) if part == "vertical" => Some(FixedPart::Vertical),
+            Some(NodeKind::Text(_)) => Some(FixedPart::Horizontal),
             _ => None,
         };
+        let direction = part.map(|part| part.direction(gravity.unwrap_or_default()));
         if direction.is_some() && entry(tree, &load, "pressure").is_some() {
-            let message = "a pressure of which one part is fixed has no factor".to_owned();
-            let help = "the margin load_factor has one; or change the unit_weight of the pressure".to_owned();
+            let message = "only a part of a pressure is fixed, so no other pressure replaces it".to_owned();
+            let help = "use the margin load_factor, or change the unit_weight of the pressure".to_owned();
             return Err(unknown(&Path(vec![Segment::Key("loads".into())]), message, help));
         }
         let NodeKind::Object(Object(keys)) = load.kind else { continue };
@@ -349,17 +349,13 @@ fn multiply_loads(tree: &mut Tree<'_>, factor: f64) -> Result<(), Box<Problem>> 
             }
             match tree.entries[at].value.kind.clone() {
                 NodeKind::List(List(parts)) => {
-                    let given = match &tree.items[parts.clone()] {
-                        [Node { kind: NodeKind::Number(x), .. }, Node { kind: NodeKind::Number(y), .. }] => {
-                            Vector::new(*x, *y)
-                        }
-                        _ => Vector::zeros(),
-                    };
-                    tree.items[parts.clone()].iter_mut().for_each(times);
-                    let kept = direction.map_or(Vector::zeros(), |along| along * (along.dot(&given) * (1.0 - factor)));
+                    // The fixed part of the force keeps its amount.
+                    let force = direction.and_then(|_| vector(tree, &tree.entries[at].value));
+                    let kept = direction.zip(force).map_or(Vector::zeros(), |(along, force)| along * along.dot(&force));
                     for (node, kept) in tree.items[parts].iter_mut().zip([kept.x, kept.y]) {
+                        times(node);
                         if let NodeKind::Number(amount) = &mut node.kind {
-                            *amount += kept;
+                            *amount += kept * (1.0 - factor);
                         }
                     }
                 }

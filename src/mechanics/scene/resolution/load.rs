@@ -7,7 +7,7 @@ use super::Resolution;
 use super::free_edges::{FreeEdges, Stretch};
 use crate::geometry::{Point, Vector, cross, quarter_turn, range_of, sin_cos_degrees};
 use crate::mechanics::scene::finding::Findings;
-use crate::mechanics::scene::format::{BlockSide, DepthEntry, FixedLoad, FixedPart, LoadEntry, PressureEntry};
+use crate::mechanics::scene::format::{BlockSide, DepthEntry, FixedLoad, LoadEntry, PressureEntry};
 use crate::mechanics::scene::name::Names;
 use crate::mechanics::scene::number::{at_least_zero, is_amount, is_sane};
 use crate::mechanics::scene::{Axle, Block, BlockId, Case, Ground, Load, Movement, Spread, Vehicle, problem};
@@ -105,16 +105,15 @@ impl Resolution<'_> {
         loads
     }
 
-    /// Returns whether a whole load is fixed, and the direction in which it is fixed otherwise.
+    /// Returns whether all of a load is fixed. If only one part of it is, also returns the direction of this part.
     fn fixed(&self, entry: Option<FixedLoad>) -> (bool, Option<Vector>) {
-        let [x, y] = self.file.gravity.unwrap_or([0.0, -1.0]);
-        let down =
-            Some(Vector::new(x, y)).filter(|down| down.norm() > 0.0).map_or(-Vector::y(), |down| down.normalize());
         match entry {
             None => (false, None),
             Some(FixedLoad::All(all)) => (all, None),
-            Some(FixedLoad::Part(FixedPart::Vertical)) => (false, Some(down)),
-            Some(FixedLoad::Part(FixedPart::Horizontal)) => (false, Some(quarter_turn(down))),
+            Some(FixedLoad::Part(part)) => {
+                let [x, y] = self.file.gravity.unwrap_or([0.0, -1.0]);
+                (false, Some(part.direction(Vector::new(x, y))))
+            }
         }
     }
 

@@ -267,10 +267,11 @@ impl Assembly {
         self
     }
 
-    /// Locks all joints against sliding: two smooth contacts at the middle of each joint, with its tangent and the opposite
-    /// direction as normals, carry any friction force, and allow no slip. The joint may still open, and the loads decide.
+    /// Locks all joints against sliding. Each joint becomes smooth and gets two smooth contacts at its middle, whose normals are
+    /// its tangent and the opposite direction. They carry a tangential force of any size and allow no slip. The joint can still
+    /// open.
     pub fn without_sliding(mut self) -> Assembly {
-        // No two contacts have the same number.
+        // Each contact needs a number of its own.
         let first = self.contacts.iter().map(|contact| contact.interface + 1).max().unwrap_or(0);
         let locks = self.contacts.iter().enumerate().flat_map(|(number, contact)| {
             let middle = contact.ends[0] + (contact.ends[1] - contact.ends[0]) / 2.0;
@@ -293,7 +294,7 @@ impl Assembly {
         self
     }
 
-    /// Locks all bodies against turning: a grip on each carries any torque, but no force.
+    /// Locks all bodies against turning. Each body gets a grip that carries a torque of any size, but no force.
     pub fn without_turning(mut self) -> Assembly {
         let limits = Limits { fx: 0.0, fy: 0.0, torque: f64::INFINITY };
         let first = self.grips.iter().map(|grip| grip.hold + 1).max().unwrap_or(0);
@@ -310,7 +311,8 @@ impl Assembly {
         self
     }
 
-    /// Keeps the forces within the middle third of each joint, unless its safety kernel keeps them closer to the middle.
+    /// Moves the application points of each joint to the ends of its middle third, unless the safety kernel has moved them
+    /// farther inward.
     pub fn with_middle_third(mut self) -> Assembly {
         for contact in &mut self.contacts {
             let third = application_points(contact.ends, MIDDLE_THIRD);

@@ -3,7 +3,7 @@
 
 use super::unit::Units;
 use super::{Grid, HoverTarget, TableCell, hover};
-use crate::geometry::{Point, Vector};
+use crate::geometry::Point;
 use crate::mechanics::analysis::{Contact, FrameAnalysis, Verdict};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
@@ -167,15 +167,16 @@ fn off_middle(contact: &Contact, kernel: f64) -> Option<(f64, f64)> {
     Some((off, share))
 }
 
-/// A structure with more of these joints has the table in the full report only.
+/// If a structure has more base and bed joints than this, only a full report has their table.
 const MAX_BASES: usize = 5;
 /// A joint is a base or bed joint if its normal is at most this angle from the direction of gravity.
 const MAX_BED_ANGLE: f64 = 45.0;
 
-/// Makes a table of the joints on which the structure stands, those at the ground first, with their pressures, and a note on
-/// how far these forces are the only ones. The table is empty if there are many, unless the report is `full`.
-pub(super) fn bases(scene: &Scene, frame_analysis: &FrameAnalysis, number: usize, full: bool) -> (Grid, String) {
-    let down = Some(scene.gravity).filter(|down| down.norm() > 0.0).map_or(-Vector::y(), |down| down.normalize());
+/// Makes a table of the pressures at the base and bed joints, those at the ground first, and a note. The note says whether
+/// other balances of the loads may have other pressures. If there are more than [`MAX_BASES`] joints, the table is empty unless
+/// the report is `full`.
+pub(super) fn base_joints(scene: &Scene, frame_analysis: &FrameAnalysis, number: usize, full: bool) -> (Grid, String) {
+    let down = scene.down();
     let is_bed =
         |contact: &Contact| contact.interface.normal.dot(&down).abs() >= libm::cos(MAX_BED_ANGLE.to_radians()) - 1e-9;
     let pressing = frame_analysis.contacts.iter().enumerate().filter(|(_, contact)| contact.eccentricity().is_some());
@@ -220,11 +221,11 @@ pub(super) fn bases(scene: &Scene, frame_analysis: &FrameAnalysis, number: usize
         ];
         grid.add(format!("i{number}"), cells);
     }
-    // If each block rests on one joint, as in a stack, the loads decide all forces.
+    // With as many joints as blocks, as in a stack, the loads determine all forces.
     let is_unique = frame_analysis.contacts.len() == scene.frames[number].placed.len()
         && frame_analysis.robots.is_empty()
         && frame_analysis.verdict == Verdict::Stable;
-    let one = if is_unique { "" } else { " In other balances of the same loads the pressures may be others." };
+    let one = if is_unique { "" } else { " Other balances of the same loads may have other pressures." };
     let note = format!(
         "The pressure varies linearly, without tension; e is the distance of the resultant from the middle.{one}"
     );

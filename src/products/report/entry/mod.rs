@@ -119,10 +119,11 @@ impl Entry {
     }
 
     /// Adds a section with a picture of numbers that vary, and what it shows in words. `picture` has the drawing, and the same
-    /// one for readers whose system uses dark colours. `typed` has the arguments of `drystone vary`.
+    /// one for readers whose system uses dark colours. `arguments` are those of `drystone vary`
+    /// after the scene.
     pub(crate) fn add_varied(
         &mut self,
-        typed: &str,
+        arguments: &[String],
         [title, paragraph]: [String; 2],
         picture: Option<(Drawing, Option<Drawing>)>,
     ) {
@@ -143,7 +144,7 @@ impl Entry {
         });
         let word =
             |word: &str| if word.starts_with("--") { format!(" {word}") } else { format!(" {}", text::shell(word)) };
-        let words = typed.split_whitespace().map(word).collect::<String>();
+        let words = arguments.iter().map(|own| word(own)).collect::<String>();
         self.commands
             .push(("numbers that vary".to_owned(), format!("drystone vary {}{words}", text::shell(&self.row.name))));
     }

@@ -2,7 +2,7 @@
 //! and margins, then its forces, the governing collapse and the balance of forces as a check.
 
 use super::collapse::{Collapse, other_way};
-use super::joints::{Ranking, bases, robots};
+use super::joints::{Ranking, base_joints, robots};
 use super::unit::Units;
 use super::{Badge, Figure, Grid, MarginBar, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
 use crate::mechanics::analysis::{
@@ -111,10 +111,10 @@ pub(super) fn sheet(
         parts.push(SheetPart::Table(table));
         parts.push(SheetPart::Note(note));
     }
-    // Dams and retaining walls have loads and few joints; what carries its weight alone is judged by its thrust.
+    // The table is for loaded walls and dams. In a frame that falls, the listed forces do not balance.
     let has_loads = !scene.loads_on(&scene.frames[number].placed).is_empty();
-    let (beds, note) = bases(scene, found, number, report_options.full);
-    if report_options.full || has_loads {
+    if found.verdict == Verdict::Stable && (report_options.full || has_loads) {
+        let (beds, note) = base_joints(scene, found, number, report_options.full);
         parts.extend(titled("Base and bed joints", beds, Some(note)));
     }
     parts.push(SheetPart::Table(robots(scene, found)));

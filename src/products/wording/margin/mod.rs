@@ -322,7 +322,7 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
         };
         let position = match kind {
             MarginKind::Friction => friction_position(interval, present, position),
-            // The frame as it is may stand where the changed structure falls, and the other way round.
+            // The verdict on the frame is not the verdict on the changed structure.
             _ if kind.about().structure.is_some() => match interval {
                 Interval::Undecided => Position::Unknown,
                 interval if interval.contains(1.0) => Position::Inside,
@@ -361,7 +361,7 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
     list
 }
 
-/// Names the smooth joints, which cannot slide either where no joint can: `, smooth 1 / wall too`. Empty without them.
+/// Names the smooth joints, because they cannot slide either: `, smooth 1 / wall too`. Empty without smooth joints.
 fn smooth_joints(scene: &Scene, found: &FrameAnalysis) -> String {
     let smooth = found.contacts.iter().filter(|contact| contact.interface.friction == 0.0);
     let names = smooth.map(|contact| contact.interface.bodies.map(|body| text::line(scene.name(body))).join(" / "));
