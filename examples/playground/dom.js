@@ -57,8 +57,8 @@ export function newtons(newtons) {
   return `${trim(newtons)} N`;
 }
 
-/** Formats a number with three significant digits, without zeros at the end. @param {number} value */
-export const trim = (value) => String(Number(value.toPrecision(3)));
+/** Formats a number for reading: three significant digits, without zeros at the end, with a true minus sign. @param {number} value */
+export const trim = (value) => String(Number(value.toPrecision(3))).replace("-", "−");
 
 /** Returns a function that runs `action` after no call for this time. @template {any[]} A @param {number} milliseconds @param {(...args: A) => void} action */
 export function afterPause(milliseconds, action) {

@@ -89,8 +89,8 @@ store.addEventListener("selection", () => {
   toolbar.refresh();
   steps.refresh();
   number.refresh();
-  number.find();
   if (figures.kind === "capacity") figures.refresh();
+  number.find();
 });
 store.addEventListener("history", () => {
   byId("undo").disabled = store.past.length === 0;

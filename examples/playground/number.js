@@ -104,10 +104,9 @@ export class NumberSlider {
     const usable = number !== null && store.parses;
     set(this.row, { class: usable ? "slider" : "slider unused" });
     this.select.disabled = this.input.disabled = !usable;
-    if (!number) {
-      this.output.textContent = "–";
-      return this.mark([]);
-    }
+    // Without a number there is nothing to show, and the figures below stay where they are.
+    this.row.hidden = !number;
+    if (!number) return this.mark([]);
     const [name, value] = [nameOf(number.path), valueAt(store.scene, number.path)];
     if (name !== this.shown || value < this.range[0] || value > this.range[1]) {
       [this.shown, this.range] = [name, rangeOf(number, value)];

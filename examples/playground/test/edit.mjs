@@ -152,7 +152,10 @@ test("sliders change the scene, and their notes give the values for which it sta
 });
 
 test("any number has a slider, whose band shows for which values it stands", async () => {
-  const { page, close } = await open({ example: "lintel" });
+  const { page, close } = await open();
+  assert.ok(await page.locator("#number").isHidden(), "nothing is selected, and nothing pushes");
+  await page.selectOption("#examples", "lintel");
+  await page.waitForSelector("#number:enabled");
   const choices = await page.locator("#number option").allTextContents();
   assert.ok(choices.some((/** @type {string} */ words) => words.includes("force to the right")), choices.join(", "));
   await page.selectOption("#number", "loads[0].force[0]");
@@ -163,6 +166,7 @@ test("any number has a slider, whose band shows for which values it stands", asy
     input.dispatchEvent(new Event("input"));
   }, most);
   assert.equal((await sceneOf(page)).loads[0].force[0], most);
+  await page.screenshot({ path: shot("number") });
   await close();
 });
 

@@ -44,6 +44,7 @@ test("the numbers of a scene have names, values and ranges", () => {
   }
   assert.equal(rangeOf(numbers[0], 30)[0], 0);
   assert.equal(inWords([{ state: "holds", from: 0, to: 1 }, { state: "fails", from: 1.01, to: 2 }]), "stands from 0 to 1");
+  assert.equal(inWords([{ state: "holds", from: -3500, to: 4120 }, { state: "fails", from: 4130, to: 5000 }]), "stands from −3500 to 4120");
   assert.equal(inWords([{ state: "fails", from: 0, to: 1 }]), "stands at no value of this slider");
 });
 

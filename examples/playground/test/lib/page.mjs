@@ -114,7 +114,9 @@ export async function verdict(page, state) {
 
 /** The middle of a block on the screen. @param {any} page @param {string} key such as blocks/3 */
 export async function middle(page, key) {
-  const box = await page.locator(`[data-handle="body:${key}"] path`).boundingBox();
+  const outline = page.locator(`[data-handle="body:${key}"] path`);
+  await outline.scrollIntoViewIfNeeded();
+  const box = await outline.boundingBox();
   return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
 }
 
