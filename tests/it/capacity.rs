@@ -285,7 +285,7 @@ fn the_forces_of_a_vertex_balance_every_block() {
     let analysis = Analysis::new(scene(&file));
     for vertex in &found.vertices {
         let mut sum = vertex.force;
-        for block in analysis.scene.blocks() {
+        for block in analysis.given().blocks() {
             sum.y -= block.weight;
         }
         // Of all forces, only those of the ground do not cancel.

@@ -211,7 +211,7 @@ fn answers_of_a_bridge_hold_at_every_position_of_its_vehicle() {
         let mut loaded = file.clone();
         let loads = axles.iter().map(|(axle, block, at)| {
             let weight = file["vehicle"]["axles"][*axle]["weight"].as_f64().expect("a weight");
-            json!({ "block": analysis.scene.blocks()[block.0].id, "at": [at.x, at.y], "force": [0, -weight] })
+            json!({ "block": analysis.given().blocks()[block.0].id, "at": [at.x, at.y], "force": [0, -weight] })
         });
         loaded["loads"] = loads.collect();
         loaded.as_object_mut().expect("an object").remove("vehicle");
@@ -290,7 +290,7 @@ fn placement_and_help_hold_at_every_position() {
         let mut loaded = beam();
         let loads = axles.iter().map(|(axle, block, at)| {
             let weight = [4.0, 2.0][*axle];
-            json!({ "block": analysis.scene.blocks()[block.0].id, "at": [at.x, at.y], "force": [0, -weight] })
+            json!({ "block": analysis.given().blocks()[block.0].id, "at": [at.x, at.y], "force": [0, -weight] })
         });
         loaded["loads"] = loads.collect();
         loaded.as_object_mut().expect("an object").remove("vehicle");

@@ -48,7 +48,7 @@ fn rounding(printed: &str) -> f64 {
 /// Asserts that the forces listed for a block sum to the listed sum, and to zero if the structure balances. Returns
 /// the number of listed forces.
 fn assert_balances(name: &str, analysis: &Analysis, frame: usize, id: BlockId) -> usize {
-    let (scene, found) = (&analysis.scene, &analysis.frames[frame]);
+    let (scene, found) = (analysis.given(), &analysis.frames[frame]);
     let mut listed = 0;
     for corners in [Corners::Few, Corners::All] {
         let options = Options::default().corners(corners);

@@ -218,7 +218,7 @@ fn each_step_has_the_scene_of_its_own_worst_case() {
         .collect();
     assert_eq!(worst, ["to the right", "to the left"]);
     for (number, load) in [(0, 2e3), (1, -10e3)] {
-        let loads = analysis.scene_of(number).loads();
+        let loads = analysis.at(number).scene.loads();
         assert_eq!((loads.len(), loads[0].force.x), (1, load));
         let svg =
             output::svg::write(&figure::panels_of(&analysis, Kind::Forces, &figure::Options::default(), &[number])[0]);

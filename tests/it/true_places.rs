@@ -74,7 +74,7 @@ fn names(title: &str, scene: &Scene, contact: &Contact) -> bool {
 
 /// Checks the marks of all joints of a drawing, and returns their number.
 fn check(name: &str, analysis: &Analysis, drawing: &Drawing) -> usize {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let mut count = 0;
     for (found, frame) in analysis.frames.iter().zip(classes(&drawing.items, &["frame"])) {
         let Some(camera) = camera(&frame.items) else { continue };

@@ -153,7 +153,7 @@ fn a_structure_that_falls_under_its_vehicle_falls() {
     // The results are those at the governing position: the axle is a load there, and the beam turns about x = 0.
     let position = &frame.vehicle.as_ref().expect("an influence line").positions[under.position.expect("a position")];
     assert!((position.factor.expect("a factor") - 3.0 / 3.5).abs() < 1e-5);
-    let loads = analysis.scene_of(0).loads();
+    let loads = analysis.at(0).scene.loads();
     assert_eq!((loads.len(), loads[0].at.x, loads[0].force.y), (1, -1.0, -3.5));
     assert!(!frame.failures.is_empty() && !frame.mechanism.is_empty());
     let json: Value =

@@ -350,13 +350,10 @@ impl PictureOutput {
     /// file, or the reason why the picture cannot be drawn. Returns an error if the file cannot be written.
     fn draw(&self, analysis: &Analysis, name: &str) -> Result<PictureOutcome, CliError> {
         let name = format!("{name}.{}", self.format.ending());
-        let legible = if self.picture.draws_words(self.format) {
-            Arc::new(missing_glyphs::legible(&analysis.scene, &self.fonts))
-        } else {
-            Arc::clone(&analysis.scene)
-        };
-        let cases = analysis.cases.clone();
-        let shown = Analysis { scene: legible, frames: analysis.frames.clone(), notes: Vec::new(), cases };
+        let mut shown = analysis.clone();
+        if self.picture.draws_words(self.format) {
+            shown.change_scenes(|scene| missing_glyphs::legible(scene, &self.fonts));
+        }
         let drawing = figure::forces(&shown, &self.options);
         match self.picture.bytes(drawing, self.format, &self.fonts) {
             Ok(bytes) => {

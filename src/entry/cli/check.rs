@@ -250,15 +250,14 @@ fn total<'v>(scenes: impl Iterator<Item = &'v [Verdict]> + Clone) -> String {
 /// the input. Without this option, the page is empty.
 fn sensitivities(analysis: &Analysis) -> Page {
     let mut page = Page::default();
-    let scene = &analysis.scene;
-    for (number, frame) in analysis.frames.iter().enumerate() {
-        let Some(sensitivity) = &frame.sensitivity else {
+    for solved in analysis.each() {
+        let Some(sensitivity) = &solved.found.sensitivity else {
             continue;
         };
         if analysis.frames.len() > 1 {
-            page.line(&format!("  frame {}", letter(number)));
+            page.line(&format!("  frame {}", letter(solved.number)));
         }
-        for line in sensitivity::lines(scene, frame, sensitivity) {
+        for line in sensitivity::lines(solved, sensitivity) {
             page.line(&format!("  {line}"));
         }
     }

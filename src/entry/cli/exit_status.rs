@@ -26,7 +26,7 @@ impl ExitStatus {
     /// `Done` if it falls, and as `Unstable` if it stands.
     pub(crate) fn from_analysis(analysis: &Analysis) -> ExitStatus {
         let verdicts = analysis.frames.iter().map(|frame| frame.verdict);
-        ExitStatus::from_verdicts(&analysis.scene, verdicts)
+        ExitStatus::from_verdicts(analysis.given(), verdicts)
     }
 
     /// Returns the exit status for the verdicts of the frames of a scene, like [`ExitStatus::from_analysis`].

@@ -319,7 +319,7 @@ impl Render {
             let names = sources.map(Source::name);
             CliError::CommandLine(format!("{} and {}: {why}", names[0], names[1]))
         })?;
-        let joined = Analysis { scene: Arc::new(scene), frames, notes: Vec::new(), cases: None };
+        let joined = Analysis::of_parts(scene, frames);
         Ok(Rendered {
             bytes: vec![self.draw.bytes(&joined, options, format, fonts)?.0],
             ending: ExitStatus::from_analysis(&joined),

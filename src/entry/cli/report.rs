@@ -449,12 +449,12 @@ fn make_figures_legible(
     report_options: &ReportOptions,
 ) {
     let fonts = Fonts::default();
-    let lacks = |analysis: &Analysis| missing_glyphs::lacks(&analysis.scene, &fonts);
+    let lacks = |analysis: &Analysis| missing_glyphs::lacks(analysis.given(), &fonts);
     if !analyses.iter().any(lacks) {
         return;
     }
     for analysis in &mut analyses {
-        analysis.scene = missing_glyphs::legible(&analysis.scene, &fonts).into();
+        analysis.change_scenes(|scene| missing_glyphs::legible(scene, &fonts));
     }
     if let Some(drawn) = self::entry(read, &analyses, report_options) {
         entry.take_figures(drawn);

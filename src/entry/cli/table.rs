@@ -5,7 +5,7 @@ use std::fmt::Write;
 use clap::builder::styling::{AnsiColor, Style};
 
 use super::page::{Page, broken, seen};
-use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Options, Verdict};
+use crate::mechanics::analysis::{Analysis, EffectName, FrameAnalysis, Options, SolvedFrame, Verdict};
 use crate::mechanics::scene::format::Expectation;
 use crate::mechanics::scene::{Limits, Scene};
 use crate::products::result::Timing;
@@ -113,7 +113,7 @@ pub(crate) struct Detail {
 /// value is written on a separate line. The remarks below the rows may be wider than the terminal; [`Page::fitted`]
 /// breaks them.
 pub(crate) fn of(name: &str, analysis: &Analysis, detail: &Detail, width: Option<usize>) -> Page {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let mut page = Page::default();
     page.styled(Style::new().bold(), name);
     let title = heading(&scene.title, MAX_SCENE_TITLE);
@@ -129,9 +129,10 @@ pub(crate) fn of(name: &str, analysis: &Analysis, detail: &Detail, width: Option
     let has_robots = analysis.frames.iter().any(|f| !f.robots.is_empty());
     let columns = COLUMN_HEADS.len() - usize::from(!has_robots);
     let heads: Vec<String> = COLUMN_HEADS[..columns].iter().map(|h| (*h).to_owned()).collect();
-    let mut rows: Vec<Vec<String>> = (scene.frames.iter().zip(&analysis.frames).enumerate())
-        .map(|(i, (step, f))| {
-            let mut cells = row(scene, i, label(scene, i, &step.title), f);
+    let mut rows: Vec<Vec<String>> = analysis
+        .each()
+        .map(|solved| {
+            let mut cells = row(solved, label(scene, solved.number, &solved.frame().title));
             cells.truncate(columns);
             cells
         })
@@ -275,11 +276,12 @@ fn is_free(limits: &Limits) -> bool {
 }
 
 /// Returns the cells of the row of a frame, in the order of [`COLUMN_HEADS`].
-fn row(scene: &Scene, number: usize, label: String, frame: &FrameAnalysis) -> Vec<String> {
+fn row(solved: SolvedFrame<'_>, label: String) -> Vec<String> {
+    let SolvedFrame { scene, found: frame, .. } = solved;
     // The forces of a frame that falls are balanced only together with the missing forces, and the forces of an
     // undecided frame are not proved. So they are not shown.
     let stands = frame.verdict == Verdict::Stable;
-    let margin = margin::governing(scene, number, frame).words.into_iter().next();
+    let margin = margin::governing(solved).words.into_iter().next();
     let robots = match frame.robots.as_slice() {
         _ if !stands => "-".into(),
         [] => "none".into(),
@@ -295,7 +297,8 @@ fn row(scene: &Scene, number: usize, label: String, frame: &FrameAnalysis) -> Ve
 }
 
 /// Returns a line with the sum of all forces, the sum of the missing forces, the proof and the time.
-fn sums(scene: &Scene, frame: &FrameAnalysis, timing: Timing) -> String {
+fn sums(solved: SolvedFrame<'_>, timing: Timing) -> String {
+    let SolvedFrame { scene, found: frame, .. } = solved;
     let sticking = match (is_left_out(frame), frame.total_sticking == 0.0) {
         (true, _) => "unknown".into(),
         (_, true) => "none".into(),
@@ -320,11 +323,11 @@ fn is_left_out(frame: &FrameAnalysis) -> bool {
 
 /// Returns the remarks below the row of a frame, with the range of its thrust. Each remark is printed on a separate line.
 fn remarks(analysis: &Analysis, number: usize, detail: &Detail, range: Option<&str>) -> Vec<String> {
-    let (scene, frame) = analysis.at(number);
+    let solved @ SolvedFrame { scene, found: frame, .. } = analysis.at(number);
     let state = &scene.frames[number];
     let mut remarks = Vec::new();
     if let Some(timing) = detail.full {
-        remarks.push(sums(scene, frame, timing));
+        remarks.push(sums(solved, timing));
     }
     remarks.extend(range.map(str::to_owned));
     remarks.extend(match (state.expected, frame.verdict) {
@@ -339,7 +342,7 @@ fn remarks(analysis: &Analysis, number: usize, detail: &Detail, range: Option<&s
     if frame.failures.len() > MAX_LISTED_FAILURES {
         remarks.push(format!("and {} more", frame.failures.len() - MAX_LISTED_FAILURES));
     }
-    remarks.extend(failure::unsupported(scene, frame, MAX_LISTED_FAILURES));
+    remarks.extend(failure::unsupported(solved, MAX_LISTED_FAILURES));
     if !frame.doubts.is_empty() {
         remarks.push(frame.doubt());
     }
@@ -352,12 +355,10 @@ fn remarks(analysis: &Analysis, number: usize, detail: &Detail, range: Option<&s
     }
     remarks.extend(question::case_lines(frame));
     if detail.margins {
-        remarks.extend(margin::lines(scene, frame));
+        remarks.extend(margin::lines(solved));
     }
-    remarks.extend(
-        frame.placement.as_ref().map(|p| format!("placement: {}", question::placement_sentence(scene, frame, p))),
-    );
-    remarks.extend(question::movement_sentences(scene, frame).into_iter().map(|words| format!("movement: {words}")));
+    remarks.extend(frame.placement.as_ref().map(|p| format!("placement: {}", question::placement_sentence(solved, p))));
+    remarks.extend(question::movement_sentences(solved).into_iter().map(|words| format!("movement: {words}")));
     let rows = frame.removable.iter();
     remarks.extend(rows.map(|rows| format!("removable: {}", question::removable_phrases(scene, rows).join("; "))));
     let helped = frame.removable.iter().flat_map(|rows| question::removable_rows(scene, rows));

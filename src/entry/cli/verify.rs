@@ -141,9 +141,9 @@ pub(crate) fn write(
     let hash = if is_stream { String::new() } else { hash(&source::bytes(scene)?) };
     let conditions = |found: &FrameAnalysis| {
         let positions = found.vehicle.as_ref().map_or(0, |line| line.positions.len());
-        analysis.scene.cases().len().max(1) * (1 + positions)
+        analysis.given().cases().len().max(1) * (1 + positions)
     };
-    let frames = analysis.scene.frames().iter().zip(&analysis.frames);
+    let frames = analysis.given().frames().iter().zip(&analysis.frames);
     let count: usize = frames.map(|(frame, found)| frame.placed.len() * conditions(found)).sum();
     if count > MAX_BLOCKS {
         return Err(CliError::CommandLine(format!(

@@ -30,9 +30,9 @@ pub(super) fn drawn(analysis: &Analysis, request: &str, ending: &str, frame: Opt
     let mut analysis = args.figure.completed(one.as_ref().unwrap_or(analysis)).map_err(|why| in_json(&why))?;
     let mut drawn = || -> Result<Vec<u8>, CliError> {
         let fonts = args.picture.fonts()?;
-        let options = args.figure.for_scene(&args.options()?, &analysis.scene)?;
-        if args.picture.draws_words(format) && missing_glyphs::lacks(&analysis.scene, &fonts) {
-            analysis.scene = missing_glyphs::legible(&analysis.scene, &fonts).into();
+        let options = args.figure.for_scene(&args.options()?, analysis.given())?;
+        if args.picture.draws_words(format) && missing_glyphs::lacks(analysis.given(), &fonts) {
+            analysis.change_scenes(|scene| missing_glyphs::legible(scene, &fonts));
         }
         Ok(args.bytes(&analysis, &options, format, &fonts)?.0)
     };
@@ -108,7 +108,7 @@ pub(super) fn report(
     let mut analysis = analysis.clone();
     if form == Form::Pdf {
         // A PDF contains text in the built-in fonts of drystone. Code points replace characters that these fonts lack.
-        analysis.scene = Arc::new(missing_glyphs::legible(&analysis.scene, &Fonts::default()));
+        analysis.change_scenes(|scene| missing_glyphs::legible(scene, &Fonts::default()));
     }
     let report_options =
         ReportOptions { theme: chosen, theme_name: theme.map(str::to_owned), ..ReportOptions::default() };

@@ -130,12 +130,12 @@ impl Analysis {
     /// Returns the name and the rings (in metres) of each body. The parts of the ground come first and have no name
     /// (`None`); then come the blocks. The first ring of a body is its outline, and the others are its holes.
     fn outlines(&self) -> Vec<(Option<String>, Vec<Ring>)> {
-        figure::outlines(&self.analysis.scene)
+        figure::outlines(self.analysis.given())
     }
 
     /// Returns the numbers, counted from 0, of the blocks that are placed in a frame; empty if there is no such frame.
     fn placed(&self, frame: usize) -> Vec<usize> {
-        let frame = self.analysis.scene.frames().get(frame);
+        let frame = self.analysis.given().frames().get(frame);
         frame.map_or_else(Vec::new, |f| f.placed.iter().map(|b| b.0).collect())
     }
 

@@ -123,7 +123,7 @@ pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     names.whole("scene", |row| row.0 as i64);
     names.columns.rotate_right(1);
     let scenes = names.rows.iter();
-    let titles = scenes.map(|(frame, (_, analysis))| analysis.scene.frames()[*frame].title.clone());
+    let titles = scenes.map(|(frame, (_, analysis))| analysis.given().frames()[*frame].title.clone());
     let titles = Column::Word(titles.collect());
     names.columns.push(("title".into(), titles));
     let mut rows = Rows::new(numbered);
@@ -215,7 +215,7 @@ impl<T> Rows<T> {
 }
 
 fn contacts(analysis: &Analysis, numbers: &[usize]) -> Table {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let of = |n: usize| analysis.frames[n].contacts.iter().map(move |c| (n, c));
     let all: Vec<(usize, &Contact)> = numbers.iter().copied().flat_map(of).collect();
     let mut rows = Rows::new(all);
@@ -238,7 +238,7 @@ fn contacts(analysis: &Analysis, numbers: &[usize]) -> Table {
 }
 
 fn robots(analysis: &Analysis, numbers: &[usize]) -> Table {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let of = |n: usize| analysis.frames[n].robots.iter().map(move |r| (n, r));
     let all: Vec<(usize, &RobotForce)> = numbers.iter().copied().flat_map(of).collect();
     let mut rows = Rows::new(all);
@@ -253,7 +253,7 @@ fn robots(analysis: &Analysis, numbers: &[usize]) -> Table {
 }
 
 fn failures(analysis: &Analysis, numbers: &[usize]) -> Table {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let of = |n: usize| analysis.frames[n].failures.iter().map(move |f| (n, f));
     let all: Vec<(usize, &Failure)> = numbers.iter().copied().flat_map(of).collect();
     let mut rows = Rows::new(all);
@@ -274,7 +274,7 @@ fn failures(analysis: &Analysis, numbers: &[usize]) -> Table {
 }
 
 fn blocks(analysis: &Analysis, numbers: &[usize]) -> Table {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let of = |n: usize| {
         let placed = scene.frames()[n].placed.iter();
         placed.map(move |b| (n, (n, b.0)))
@@ -287,7 +287,7 @@ fn blocks(analysis: &Analysis, numbers: &[usize]) -> Table {
     };
     rows.word("id", |row| scene.blocks()[row.1].id.clone());
     rows.whole("block", |row| row.1 as i64);
-    rows.real("weight", |row| scene.blocks()[row.1].weight);
+    rows.real("weight", |row| analysis.at(row.0).scene.blocks()[row.1].weight);
     rows.real("area", |row| scene.blocks()[row.1].body.polygon.area());
     rows.pair(["x", "y"], |row| scene.blocks()[row.1].centroid.coords);
     rows.pair(["velocity_x", "velocity_y"], |row| motion(row).map_or_else(Vector::zeros, |m| m.velocity));

@@ -80,7 +80,7 @@ impl PageArgs {
 
     /// Draws an analysis that has all results for the figure.
     fn page(&self, analysis: &Analysis) -> Result<String, Refusal> {
-        let options = self.figure.for_scene(&self.options()?, &analysis.scene).map_err(Refused::from)?;
+        let options = self.figure.for_scene(&self.options()?, analysis.given()).map_err(Refused::from)?;
         self.svg(figure::draw(analysis, self.figure.kind(), &options))
     }
 

@@ -13,8 +13,8 @@ use super::answers::Answers;
 use super::condition::Condition;
 use super::decide::decided_forces;
 use super::margin::{END_TOL, largest_load_factor};
-use super::{Analysis, FrameAnalysis, Influence, Margins, Options, SupportMovement, Verdict, position, repeat};
-use crate::mechanics::scene::{Case, Load, Note, Scene};
+use super::{Analysis, FrameAnalysis, Influence, Margins, Options, SupportMovement, Verdict, repeat};
+use crate::mechanics::scene::{Case, Load, Scene};
 use crate::mechanics::solve::{DeadlineGuard, is_late};
 use crate::mechanics::statics::assembly::Assembly;
 use crate::mechanics::statics::effect;
@@ -58,28 +58,6 @@ pub struct Envelope {
     pub normal: [f64; 2],
     /// The friction force, in the direction of the tangent.
     pub friction: [f64; 2],
-}
-
-/// The scenes of an analysis with load cases, or of frames that fall under a vehicle.
-#[derive(Clone, Debug)]
-pub(crate) struct CaseScenes {
-    /// The scene as its author wrote it, with its cases.
-    given: Arc<Scene>,
-    /// For each frame, the scene with the weights and loads to which its results belong.
-    of_frames: Vec<Arc<Scene>>,
-}
-
-impl CaseScenes {
-    /// Returns the scene of a frame, to change it.
-    pub(super) fn scene_mut(&mut self, number: usize) -> &mut Scene {
-        Arc::make_mut(&mut self.of_frames[number])
-    }
-
-    /// Returns the scenes with only one of their frames. `None` if there is no such frame.
-    pub(super) fn alone(&self, number: usize) -> Option<CaseScenes> {
-        let own = self.of_frames.get(number)?.alone(number)?;
-        Some(CaseScenes { given: self.given.alone(number)?.into(), of_frames: vec![own.into()] })
-    }
 }
 
 impl Scene {
@@ -169,7 +147,7 @@ impl Analysis {
                 let verdict = frame.verdict;
                 let is_compared = !options.verdict_only && scene.cases.len() > 1 && verdict >= frames[number].verdict;
                 let factor =
-                    if is_compared { load_factor(&found.scene, number, frame, &interfaces) } else { f64::INFINITY };
+                    if is_compared { load_factor(&found.given, number, frame, &interfaces) } else { f64::INFINITY };
                 let is_less = factor < worst[number] * (1.0 - END_TOL);
                 if k == 0 || verdict > frames[number].verdict || verdict == frames[number].verdict && is_less {
                     (frames[number], worst[number]) = (frame.clone(), factor);
@@ -192,54 +170,6 @@ impl Analysis {
             (frames[k], scenes[k]) = (frames[source].clone(), scenes[source].clone());
         }
         Analysis::of_conditions(scene, frames, scenes, notes)
-    }
-
-    /// Returns an analysis from its parts: the scene as it was `given`, the results of its frames, and for each frame the
-    /// scene with the weights and loads to which these results belong.
-    pub(super) fn of_conditions(
-        given: Arc<Scene>,
-        frames: Vec<Arc<FrameAnalysis>>,
-        of_frames: Vec<Arc<Scene>>,
-        notes: Vec<Note>,
-    ) -> Analysis {
-        // Results of the whole scene, such as a list of inputs, show the condition of the worst frame.
-        let worst =
-            (1..frames.len()).fold(0, |worst, k| if frames[k].verdict > frames[worst].verdict { k } else { worst });
-        let scene = of_frames.get(worst).unwrap_or(&given).clone();
-        Analysis { scene, frames, notes, cases: Some(CaseScenes { given, of_frames }) }
-    }
-
-    /// Returns the scene with the weights and loads to which the results of a frame belong. With load cases, these are those
-    /// of its worst case. If the frame falls under the vehicle, the loads contain the axles.
-    pub fn scene_of(&self, frame: usize) -> &Arc<Scene> {
-        self.cases.as_ref().and_then(|cases| cases.of_frames.get(frame)).unwrap_or(&self.scene)
-    }
-
-    /// Returns the scene with the weights and loads of a condition of a frame.
-    pub(crate) fn scene_in(&self, frame: usize, condition: Condition) -> Arc<Scene> {
-        let found = &self.frames[frame];
-        let own = self.scene_of(frame);
-        let Some(given) = self.cases.as_ref().map(|cases| &cases.given).or(found.vehicle.as_ref().map(|_| own)) else {
-            return own.clone();
-        };
-        if condition == found.condition() {
-            return own.clone();
-        }
-        let case = condition.case.and_then(|case| given.in_cases().nth(case));
-        let bare = case.map_or_else(|| Scene::clone(given), |(_, scene)| scene);
-        let line = found.vehicle.as_ref().zip(condition.position);
-        let loaded = line.and_then(|(line, position)| position::scene_with_axles(&bare, line.positions.get(position)?));
-        Arc::new(loaded.unwrap_or(bare))
-    }
-
-    /// Returns the results of a frame, with the scene of [`Analysis::scene_of`].
-    pub(crate) fn at(&self, frame: usize) -> (&Arc<Scene>, &FrameAnalysis) {
-        (self.scene_of(frame), &self.frames[frame])
-    }
-
-    /// Returns the scene as its author wrote it, with its load cases.
-    pub(crate) fn given(&self) -> &Arc<Scene> {
-        self.cases.as_ref().map_or(&self.scene, |cases| &cases.given)
     }
 }
 

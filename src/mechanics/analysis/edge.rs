@@ -75,7 +75,7 @@ impl Analysis {
             _ => at + DEGREES_BEYOND_LIMIT.to_radians() * outward,
         };
         let setting = (kind.about().setting)(beyond);
-        let (gravity, mut scene) = (self.scene.gravity, Scene::clone(&self.scene_in(frame, condition)));
+        let (gravity, mut scene) = (self.given.gravity, Scene::clone(&self.scene_in(frame, condition)));
         scene.gravity = gravity * setting.along + quarter_turn(gravity) * setting.across;
         scene.loads.iter_mut().for_each(|load| *load = load.times_factor(setting.loads));
         // The conditions of a changed structure are not those of the scene, so its motion stays as it is.

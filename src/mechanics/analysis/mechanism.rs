@@ -57,7 +57,7 @@ impl Analysis {
             all.extend(fall.elementary().unwrap_or(fall.motions));
         }
         // Scale all parts by one factor, so that the fastest point has speed 1.
-        let fastest = all.iter().map(|m| m.fastest(&self.scene)).fold(0.0, f64::max);
+        let fastest = all.iter().map(|m| m.fastest(&self.given)).fold(0.0, f64::max);
         if fastest > 0.0 {
             for motion in &mut all {
                 motion.velocity /= fastest;

@@ -33,6 +33,7 @@ mod condition;
 mod corners;
 mod vehicle;
 mod sensitivity;
+mod solved_frame;
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -58,7 +59,6 @@ pub use capacity::{
 };
 #[cfg(feature = "certificate")]
 pub(in crate::mechanics) use capacity::{extremes, with_grip};
-pub(crate) use cases::CaseScenes;
 pub use cases::{CaseResult, Envelope, LoadCases};
 pub use condition::Condition;
 pub use decide::Method;
@@ -74,6 +74,7 @@ pub use placement::{BlockPlacement, Placement, PlacementError, PlacementLimit};
 pub use position::VehiclePosition;
 pub use removable::{Help, Removable};
 pub use sensitivity::{CornerMoves, CornerSlope, EndSensitivity, LoadSlope, NoSensitivity, Sensitivity, Slope};
+pub use solved_frame::SolvedFrame;
 pub use thrust_states::{ThrustState, ThrustStates};
 pub(in crate::mechanics) use undecided::INEXACT;
 pub use undecided::UndecidedReason;
@@ -137,16 +138,15 @@ impl fmt::Display for Verdict {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Analysis {
-    /// The analysed scene. With load cases, it has the weights and loads of the worst case of its worst frame. If that frame
-    /// falls under the vehicle, its loads contain the axles. [`Analysis::scene_of`] returns the scene of each frame.
-    pub scene: Arc<Scene>,
+    /// The scene as its author wrote it.
+    given: Arc<Scene>,
+    /// For each frame, the scene to which its results belong. Empty if all results belong to the given scene.
+    of_frames: Vec<Arc<Scene>>,
     /// One entry per frame of the scene, in order. Frames in the same state share their results.
     pub frames: Vec<Arc<FrameAnalysis>>,
     /// Notes on things that are allowed but seldom intended: the notes of the scene, and notes on gaps that are
     /// nearly contacts.
     pub notes: Vec<Note>,
-    /// The scenes in their worst load cases and under the vehicle; `None` if all results belong to the scene itself.
-    pub(crate) cases: Option<CaseScenes>,
 }
 
 /// The results of one frame.
@@ -306,22 +306,13 @@ impl Analysis {
         let notes = gaps_closed::notes(&once, &interfaces);
         let frames = repeat::with_repeats(frames, &source);
         if governing.iter().all(Option::is_none) {
-            return Analysis { frames, scene, notes, cases: None };
+            return Analysis::of_conditions(scene, frames, Vec::new(), notes);
         }
         let own = (0..source.len()).filter(|number| source[*number] == *number);
         let scenes: BTreeMap<usize, Arc<Scene>> =
             own.zip(governing).map(|(number, under)| (number, under.unwrap_or_else(|| scene.clone()))).collect();
         let scenes = source.iter().map(|source| scenes[source].clone()).collect();
         Analysis::of_conditions(scene, frames, scenes, notes)
-    }
-
-    /// Returns the analysis of one frame alone, whose scene has only this frame too. `number` is counted from 0. `None`
-    /// if there is no such frame.
-    pub(crate) fn alone(&self, number: usize) -> Option<Analysis> {
-        let frames = vec![self.frames.get(number)?.clone()];
-        let scene = self.scene_of(number).alone(number)?.into();
-        let cases = self.cases.as_ref().and_then(|cases| cases.alone(number));
-        Some(Analysis { scene, frames, notes: self.notes.clone(), cases })
     }
 
     /// Returns the worst verdict of all frames; stable if there are no frames.

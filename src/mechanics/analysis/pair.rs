@@ -26,7 +26,7 @@ pub fn pair(
     after: (&Analysis, usize),
     titles: [String; 2],
 ) -> Result<(Scene, Vec<Arc<FrameAnalysis>>), String> {
-    let (first, second) = (&*before.0.scene, &*after.0.scene);
+    let (first, second) = (before.0.at(before.1).scene, after.0.at(after.1).scene);
     // The common scene has only one ground, one direction of gravity and one list of contacts.
     check_ground_and_gravity(first, second)?;
     let mut scene = first.clone();

@@ -155,7 +155,7 @@ fn of_block(
             let free = frame.placed.iter().filter(|block| frame.holds.iter().all(|hold| hold.block != **block));
             let points = free.map(|block| (*block, scene.blocks[block.0].centroid)).collect();
             // If the rest falls under a vehicle, this scene has the axles at the governing position.
-            let given = effect::assembly_of(rests.scene_of(number), frame, interfaces);
+            let given = effect::assembly_of(rests.at(number).scene, frame, interfaces);
             match least_hold(&given, points, &rest.mechanism) {
                 Ok(Some(help)) if scene.vehicle.is_some() => {
                     let point = (help.block, scene.blocks[help.block.0].centroid);

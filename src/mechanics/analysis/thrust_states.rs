@@ -72,7 +72,7 @@ impl Analysis {
         let Some(found) = self.frames.get(frame) else {
             return ThrustStates::default();
         };
-        let scene = self.scene_of(frame);
+        let scene = self.at(frame).scene;
         let few = scene.frames[frame].placed.len() <= MAX_BLOCKS;
         let feet: BTreeSet<BlockId> = supports(&found.contacts).iter().map(|s| s.0).collect();
         let none = ThrustStates { supports: feet.len(), ..ThrustStates::default() };
@@ -106,7 +106,7 @@ impl Analysis {
     /// Computes the state of least thrust (`sign` 1) or of greatest thrust (`sign` −1). `None` if no such forces are
     /// found and proved.
     fn extreme(&self, number: usize, sign: f64) -> Option<ThrustState> {
-        let scene = &**self.scene_of(number);
+        let scene = self.at(number).scene;
         let frame = &scene.frames[number];
         let assembly = effect::assembly_of(scene, frame, &Interfaces::new(scene));
         let mut state = FrameAnalysis::clone(&self.frames[number]);
@@ -122,14 +122,14 @@ impl Analysis {
     /// which it stands. `None` if this kernel is unknown, or if the forces have no proof.
     pub(crate) fn central(&self, number: usize) -> Option<ThrustState> {
         let kernel = self.frames[number].margins_alone()?.most(MarginKind::Kernel)?;
-        let mut scene = self.scene_of(number).alone(number)?;
+        let mut scene = self.at(number).scene.alone(number)?;
         scene.movements.clear();
         scene.vehicle = None;
         scene.kernel = (kernel * (1.0 - WITHIN_KERNEL)).clamp(scene.kernel, 1.0);
         let analysis = Analysis::with(scene, &Options::default());
         let FrameAnalysis { verdict, contacts, robots, .. } = FrameAnalysis::clone(analysis.frames.first()?);
         let frame = FrameAnalysis { contacts, robots, ..FrameAnalysis::clone(&self.frames[number]) };
-        let thrust = thrust(&self.scene, &frame.contacts);
+        let thrust = thrust(&self.given, &frame.contacts);
         (verdict == Verdict::Stable).then_some(ThrustState { frame, thrust })
     }
 }

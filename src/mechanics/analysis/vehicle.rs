@@ -196,11 +196,10 @@ impl Analysis {
     /// Returns the analysis with scenes without the axles, which a figure of the vehicle draws itself.
     pub(crate) fn without_axles(&self) -> Analysis {
         let mut bare = self.clone();
-        let Some(conditions) = &mut bare.cases else { return bare };
         for (number, found) in self.frames.iter().enumerate() {
             let Some(line) = found.vehicle.as_ref().filter(|_| found.under_vehicle.is_some()) else { continue };
             let axles = found.under_vehicle.and_then(|under| Some(line.positions.get(under.position?)?.axles.len()));
-            let loaded = conditions.scene_mut(number);
+            let Some(loaded) = bare.of_frames.get_mut(number).map(Arc::make_mut) else { continue };
             let count = loaded.loads.len() - axles.unwrap_or(0).min(loaded.loads.len());
             loaded.loads.truncate(count);
         }

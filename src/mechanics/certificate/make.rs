@@ -148,7 +148,7 @@ impl Certificate {
     /// exact. `keep` has the proved frame, and what its limits are proved from; it returns whether it kept all. Returns the
     /// certificate without frames.
     fn prove_each(analysis: &mut Analysis, mut keep: impl FnMut(&FrameForm, &Limits<'_>) -> bool) -> Certificate {
-        let mut latest = analysis.scene.clone();
+        let mut latest = analysis.given().clone();
         let interfaces = Interfaces::new(&latest);
         let mut certificate = Certificate {
             drystone_certificate: 1,
@@ -189,7 +189,7 @@ impl Certificate {
                 }
             }
         });
-        Certificate { bodies: bodies(&analysis.scene), frames: Vec::new(), ..certificate }
+        Certificate { bodies: bodies(analysis.given()), frames: Vec::new(), ..certificate }
     }
 
     /// Adds forces to a frame that stands: those of the analysis, or those with the largest slack, whichever leave

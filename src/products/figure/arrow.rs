@@ -11,8 +11,8 @@ use super::design::{unit, zoomed_view};
 use super::fill;
 use super::option::{ForceStyle, Normalisation, Options};
 use crate::geometry::{Point, Vector};
-use crate::mechanics::analysis::{ActingForce, Analysis, Contact, ForceKind, FrameAnalysis, acting_forces};
-use crate::mechanics::scene::{BodyId, RobotId, Scene};
+use crate::mechanics::analysis::{ActingForce, Analysis, Contact, ForceKind, SolvedFrame, acting_forces};
+use crate::mechanics::scene::{BodyId, RobotId};
 use crate::pictures::drawing::Colour;
 use crate::pictures::drawing::arrow::HEAD_LENGTH;
 
@@ -130,7 +130,7 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
 /// length. With [`Normalisation::Source`], this is the largest single unknown of the linear program, weight or load. In
 /// a zoomed figure, only forces in the zoomed view count.
 pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
-    let scene = analysis.scene_of(frame);
+    let scene = analysis.at(frame).scene;
     let (frame, frame_analysis) = (&scene.frames[frame], &analysis.frames[frame]);
     let edge = unit(scene, options.zoom);
     let near = options.zoom.map(|block| zoomed_view(scene, block));
@@ -155,20 +155,17 @@ pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f
 /// not exist or `newtons_per_unit` is not above 0.
 pub fn marks(analysis: &Analysis, frame: usize, options: &Options, newtons_per_unit: f64) -> Marks {
     let mut marks = Marks { newtons_per_unit, ..Marks::default() };
-    let (Some(placed), Some(frame_analysis)) = (analysis.scene.frames.get(frame), analysis.frames.get(frame)) else {
-        return marks;
-    };
+    let Some(solved @ SolvedFrame { scene, found, .. }) = analysis.each().nth(frame) else { return marks };
     if newtons_per_unit.is_nan() || newtons_per_unit <= 0.0 {
         return marks;
     }
-    let scene = analysis.scene_of(frame);
     let options = &options.for_scene(scene);
     let edge = unit(scene, options.zoom);
     let is_source = options.normalisation == Normalisation::Source;
-    let largest = if is_source { largest_forces_on_blocks(scene, frame_analysis) } else { Vec::new() };
+    let largest = if is_source { largest_forces_on_blocks(solved) } else { Vec::new() };
     let mut place = vec![0; scene.blocks.len()];
-    placed.placed.iter().enumerate().for_each(|(number, block)| place[block.0] = number);
-    let mut forces = acting_forces(scene, placed, frame_analysis, |contact| parts(contact, options.style));
+    solved.frame().placed.iter().enumerate().for_each(|(number, block)| place[block.0] = number);
+    let mut forces = acting_forces(scene, solved.frame(), found, |contact| parts(contact, options.style));
     let is_last = |kind: ForceKind| kind.robot().is_some() || kind.is_failure();
     forces.sort_by_key(|acting| if is_last(acting.kind) { usize::MAX } else { place[acting.on.0] });
     let maker = ArrowMaker { options, edge, metres_per_newton: edge / newtons_per_unit, place, largest };
@@ -299,7 +296,8 @@ fn largest_unknown(contact: &Contact) -> f64 {
 /// Returns, for each block, the largest of these values in N: its weight, the normal forces and the friction forces on
 /// it, and the force components of its robots. The list is indexed by block. The thesis scales missing forces by these
 /// values.
-fn largest_forces_on_blocks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<f64> {
+fn largest_forces_on_blocks(solved: SolvedFrame<'_>) -> Vec<f64> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let mut most: Vec<f64> = scene.blocks.iter().map(|b| b.weight).collect();
     fill::raise(&mut most, frame_analysis, largest_unknown);
     for robot in &frame_analysis.robots {

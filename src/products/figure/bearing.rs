@@ -2,7 +2,7 @@
 //! fraction of its friction; and the robots that reach their limits.
 
 use crate::geometry::Point;
-use crate::mechanics::analysis::{ActingForce, Contact, FrameAnalysis, RobotForce, Verdict};
+use crate::mechanics::analysis::{ActingForce, Contact, RobotForce, SolvedFrame, Verdict};
 use crate::mechanics::scene::{BodyId, RobotId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::products::wording::number::FULL_UTILISATION;
@@ -27,7 +27,8 @@ pub(crate) struct Bearing {
 
 /// Returns the normal force, the eccentricity and the used friction of each contact, in the order of the contacts. The
 /// entry is `None` for a contact whose normal force is 0 or [numerical noise](noise).
-pub(crate) fn bearings(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Option<Bearing>> {
+pub(crate) fn bearings(solved: SolvedFrame<'_>) -> Vec<Option<Bearing>> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let largest = frame_analysis.contacts.iter().map(Contact::normal_force).fold(0.0, f64::max);
     let bearing = |contact: &Contact| {
         let pressed = contact.normal_force();
@@ -48,8 +49,9 @@ pub(crate) fn bearings(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Opt
 }
 
 /// Returns the contacts that press, without those whose force is 0 or [numerical noise](noise).
-pub(crate) fn pressed<'a>(scene: &Scene, found: &'a FrameAnalysis) -> impl Iterator<Item = (&'a Contact, Bearing)> {
-    let bearings = bearings(scene, found).into_iter();
+pub(crate) fn pressed<'a>(solved: SolvedFrame<'a>) -> impl Iterator<Item = (&'a Contact, Bearing)> {
+    let SolvedFrame { found, .. } = solved;
+    let bearings = bearings(solved).into_iter();
     found.contacts.iter().zip(bearings).filter_map(|(contact, bearing)| Some((contact, bearing?)))
 }
 
@@ -67,9 +69,10 @@ pub(crate) fn noise(largest: f64, weight: f64) -> f64 {
 
 /// Returns the forces of joints and robots on the blocks, without [numerical noise](noise). `at` returns the point where
 /// the force of a joint acts.
-pub(crate) fn pressing(scene: &Scene, found: &FrameAnalysis, at: impl Fn(&Contact) -> Point) -> Vec<ActingForce> {
+pub(crate) fn pressing(solved: SolvedFrame<'_>, at: impl Fn(&Contact) -> Point) -> Vec<ActingForce> {
+    let SolvedFrame { scene, found, .. } = solved;
     let mut forces = Vec::new();
-    for (contact, _) in pressed(scene, found) {
+    for (contact, _) in pressed(solved) {
         forces.extend(contact.acting().into_iter().map(|acting| ActingForce { at: at(contact), ..acting }));
     }
     let noise = |robot: &RobotForce| noise(f64::INFINITY, scene.blocks[robot.block.0].weight);
@@ -87,7 +90,8 @@ pub(crate) fn has_limits(scene: &Scene, robot: RobotId) -> bool {
 
 /// Returns the robots whose force or torque reaches one of their limits in a frame. The list is empty if the frame does
 /// not stand.
-pub(crate) fn robots_reached<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<&'a RobotForce> {
+pub(crate) fn robots_reached<'a>(solved: SolvedFrame<'a>) -> Vec<&'a RobotForce> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let stands = frame_analysis.verdict == Verdict::Stable;
     let robots = frame_analysis.robots.iter().filter(|_| stands);
     let reached = robots.filter(|r| r.limit_used >= FULL_UTILISATION);

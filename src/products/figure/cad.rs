@@ -10,7 +10,7 @@ use super::displacement::Course;
 use super::fall::Fall;
 use super::{design, funicular};
 use crate::geometry::Point;
-use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::analysis::{Analysis, SolvedFrame, Verdict};
 use crate::mechanics::scene::{Body, Frame, Scene};
 
 /// The layers with their AutoCAD colour numbers.
@@ -49,10 +49,8 @@ const LETTER_SHARE: f64 = 0.15;
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn dxf(analysis: &Analysis, frame: usize) -> String {
-    let scene = &analysis.scene;
-    let (Some(placed), Some(frame_analysis)) = (scene.frames.get(frame), analysis.frames.get(frame)) else {
-        return String::new();
-    };
+    let Some(solved @ SolvedFrame { scene, found, .. }) = analysis.each().nth(frame) else { return String::new() };
+    let placed = solved.frame();
     let unit = design::unit(scene, None);
     let mut file = DxfWriter::default();
     file.head();
@@ -64,8 +62,8 @@ pub fn dxf(analysis: &Analysis, frame: usize) -> String {
         file.entity("POINT", ROBOT_LAYER);
         file.point(10, hold.at);
     }
-    if frame_analysis.verdict == Verdict::Stable {
-        for segment in funicular::segments(scene, placed, frame_analysis) {
+    if found.verdict == Verdict::Stable {
+        for segment in funicular::segments(solved) {
             file.entity("LINE", THRUST_LAYER);
             file.point(10, segment.from);
             file.point(11, segment.to);

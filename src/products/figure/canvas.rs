@@ -12,7 +12,7 @@ use super::moving::Moving;
 use super::option::{ArrowScale, Options};
 use super::placing::{self, Label, Surroundings};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, ThrustState, ThrustStates};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, SolvedFrame, ThrustState, ThrustStates};
 use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
 use crate::pictures::drawing::style::ForceMarks;
 use crate::pictures::drawing::{Camera, Colour, Group, Item, Outline, PagePoint, PageRect, Path, Stroke, Theme};
@@ -125,16 +125,21 @@ impl<'a> Canvas<'a> {
         }
     }
 
+    /// Returns the frame of the picture, with its results and the scene to which they belong.
+    pub fn solved(&self) -> SolvedFrame<'a> {
+        self.analysis.at(self.number)
+    }
+
     pub fn scene(&self) -> &'a Scene {
-        self.analysis.scene_of(self.number)
+        self.solved().scene
     }
 
     pub fn frame(&self) -> &'a Frame {
-        &self.analysis.scene.frames[self.number]
+        self.solved().frame()
     }
 
     pub fn found(&self) -> &'a FrameAnalysis {
-        &self.analysis.frames[self.number]
+        self.solved().found
     }
 
     pub fn theme(&self) -> &'a Theme {

@@ -67,7 +67,7 @@ impl Figure for CarriedForces {
     fn words(&self, analysis: &Analysis, frame: usize, _: &Options) -> Vec<String> {
         let found = &analysis.frames[frame];
         let sentences = match &found.capacity {
-            Some(capacity) => wording::capacity::sentences(&analysis.scene, found.verdict, capacity),
+            Some(capacity) => wording::capacity::sentences(analysis.given(), found.verdict, capacity),
             None if analysis.frames.iter().any(|f| f.capacity.is_some()) => {
                 "the block is not placed in this step".to_owned()
             }

@@ -62,7 +62,7 @@ impl Figure for Comparison {
 /// are empty for the first frame.
 fn blocks(analysis: &Analysis, frame: usize) -> [Vec<BlockId>; 2] {
     let Some(earlier) = frame.checked_sub(1) else { return [Vec::new(), Vec::new()] };
-    let frames = &analysis.scene.frames;
+    let frames = &analysis.given().frames;
     let (now, before) = (&frames[frame].placed, &frames[earlier].placed);
     let without = |a: &[BlockId], b: &[BlockId]| a.iter().copied().filter(|id| !b.contains(id)).collect();
     [without(now, before), without(before, now)]
@@ -79,7 +79,7 @@ fn left_behind(scene: &Scene, new: &[BlockId], gone: &[BlockId]) -> Vec<BlockId>
 /// whose forces changed, and the number of interfaces that both frames have.
 fn changes(analysis: &Analysis, frame: usize) -> (Vec<ForceChange<'_>>, usize) {
     let Some(earlier) = frame.checked_sub(1) else { return (Vec::new(), 0) };
-    let scene = &*analysis.scene;
+    let scene = &**analysis.given();
     let shared = shared_forces([earlier, frame].map(|f| (scene, &analysis.frames[f].contacts[..])));
     let count = shared.len();
     let noise = noise(shared.iter().map(ForceChange::larger));
@@ -158,7 +158,7 @@ fn rings(canvas: &mut Canvas<'_>, changes: &[ForceChange<'_>]) {
 /// Returns the blocks that the words about a frame name.
 fn mentioned(analysis: &Analysis, frame: usize) -> Vec<BlockId> {
     let [new, gone] = blocks(analysis, frame);
-    let name = |id: &BlockId| &analysis.scene.blocks[id.0].id;
+    let name = |id: &BlockId| &analysis.given().blocks[id.0].id;
     let gone = gone.iter().copied().filter(|id| !new.iter().any(|other| name(other) == name(id)));
     let lists = [new.clone(), gone.collect::<Vec<BlockId>>()];
     lists.into_iter().filter(|ids| ids.len() <= MAX_NAMED_BLOCKS).flatten().collect()
@@ -180,7 +180,7 @@ fn changes_in_words(analysis: &Analysis, frame: usize) -> Vec<String> {
             Verdict::Undecided => "undecided, unlike the previous frame".to_owned(),
         });
     }
-    let name = |id: BlockId| analysis.scene.blocks[id.0].id.clone();
+    let name = |id: BlockId| analysis.given().blocks[id.0].id.clone();
     let [came, went] = blocks(analysis, frame).map(|ids| ids.into_iter().map(name).collect::<Vec<String>>());
     // `both` are the names of blocks that both frames contain, but with different outlines, weights or loads.
     let both: Vec<String> = came.iter().filter(|n| went.contains(n)).cloned().collect();
@@ -208,7 +208,7 @@ fn changes_in_words(analysis: &Analysis, frame: usize) -> Vec<String> {
 /// Describes how the sum of the loads on the block with this name changed between two frames: `load on block a: 2 kN at
 /// 270° before, 3 kN at 270° now`. Returns `None` if it did not change.
 fn changed_load(analysis: &Analysis, frames: [usize; 2], name: &str) -> Option<String> {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let sum = |frame: usize| {
         let placed = &scene.frames[frame].placed;
         let own = scene.loads.iter().filter(|l| placed.contains(&l.block) && scene.blocks[l.block.0].id == name);

@@ -77,25 +77,25 @@ pub(crate) fn motion(scene: &Scene, motion: &Motion) -> String {
 /// # Ok::<(), drystone::scene::SceneError>(())
 /// ```
 pub fn caption(analysis: &Analysis) -> String {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let mut sentences = Vec::new();
     if !scene.title.is_empty() {
         sentences.push(format!("{}.", scene.title.trim_end_matches('.')));
     }
     let several = analysis.frames.len() > 1;
-    for (number, frame_analysis) in analysis.frames.iter().enumerate() {
-        let verdict = frame_analysis.verdict.plain();
-        let verdict = match frame_analysis.verdict {
+    for solved in analysis.each() {
+        let verdict = solved.found.verdict.plain();
+        let verdict = match solved.found.verdict {
             Verdict::Undecided => format!("is {verdict}"),
             _ => verdict.to_owned(),
         };
-        let reasons = reasons(scene, frame_analysis);
+        let reasons = reasons(solved);
         let reasons = if reasons.is_empty() { String::new() } else { format!(": {reasons}") };
-        let title = &scene.frames[number].title;
+        let title = &solved.frame().title;
         sentences.push(match (several, title.as_str()) {
             (false, _) => format!("It {verdict}{reasons}."),
-            (true, "") => format!("({}) It {verdict}{reasons}.", letter(number)),
-            (true, title) => format!("({}) {title}: it {verdict}{reasons}.", letter(number)),
+            (true, "") => format!("({}) It {verdict}{reasons}.", letter(solved.number)),
+            (true, title) => format!("({}) {title}: it {verdict}{reasons}.", letter(solved.number)),
         });
     }
     sentences.join(" ")

@@ -38,7 +38,7 @@ pub(crate) fn check_panels(scene: &Scene, remedy: &str) -> Result<(), String> {
 ///
 /// Units: the page is in pixels at natural size.
 pub fn draw(analysis: &Analysis, kind: Kind, options: &Options) -> Drawing {
-    let options = kind.options(&analysis.scene, options);
+    let options = kind.options(analysis.given(), options);
     sheet::page(&shown(analysis, kind, &options), kind.drawer(&options), &options)
 }
 
@@ -82,7 +82,7 @@ pub fn forces(analysis: &Analysis, options: &Options) -> Drawing {
 ///
 /// Units: all times are in seconds.
 pub fn film(analysis: &Analysis, kind: Kind, options: &Options, seconds: f64) -> Vec<(Drawing, f64)> {
-    let options = kind.options(&analysis.scene, options);
+    let options = kind.options(analysis.given(), options);
     if kind == Kind::Mechanism && options.at == Some(At::Vehicle) {
         return vehicle::film(&shown(analysis, kind, &options), &options, seconds);
     }
@@ -118,13 +118,13 @@ fn eased(time: f64) -> f64 {
 
 /// Draws the panels of [`draw`] as separate pages, one for each frame. All pages have the same size and scale.
 pub fn panels(analysis: &Analysis, kind: Kind, options: &Options) -> Vec<Drawing> {
-    let options = kind.options(&analysis.scene, options);
+    let options = kind.options(analysis.given(), options);
     frame_pages(&shown(analysis, kind, &options), kind, &options, &all_frames(analysis))
 }
 
 /// Like [`panels`], but only for the frames with these indices, counted from 0. Frames that do not exist are skipped.
 pub fn panels_of(analysis: &Analysis, kind: Kind, options: &Options, frames: &[usize]) -> Vec<Drawing> {
-    let options = kind.options(&analysis.scene, options);
+    let options = kind.options(analysis.given(), options);
     let count = analysis.frames.len();
     let existing: Vec<usize> = frames.iter().copied().filter(|frame| *frame < count).collect();
     frame_pages(&shown(analysis, kind, &options), kind, &options, &existing)
@@ -133,14 +133,14 @@ pub fn panels_of(analysis: &Analysis, kind: Kind, options: &Options, frames: &[u
 /// Draws the figure of [`draw`] on several pages at the same scale, each with a title and a legend. The height of a
 /// page is at most `max_ratio` times its width, unless a single row of panels is higher.
 pub fn split(analysis: &Analysis, kind: Kind, options: &Options, max_ratio: f64) -> Vec<Drawing> {
-    let options = kind.options(&analysis.scene, options);
+    let options = kind.options(analysis.given(), options);
     sheet::split(&shown(analysis, kind, &options), kind.drawer(&options), &options, max_ratio)
 }
 
 /// Returns lower bounds for the width and the height of the page of [`draw`], in pixels. The function draws nothing, so
 /// a caller can reject a figure that is too large before it is drawn.
 pub fn least_size(analysis: &Analysis, kind: Kind, options: &Options) -> (f64, f64) {
-    let options = kind.options(&analysis.scene, options);
+    let options = kind.options(analysis.given(), options);
     sheet::least_size(analysis, kind.drawer(&options), &options)
 }
 

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use crate::geometry::{Point, Vector};
-use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, Motion, Verdict};
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, Motion, SolvedFrame, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::products::wording::margin::OtherFriction;
 
@@ -72,7 +72,7 @@ impl<'a> Fall<'a> {
         motions: &[Motion],
         friction: Option<OtherFriction>,
     ) -> Fall<'a> {
-        let (scene, found) = analysis.at(frame);
+        let SolvedFrame { scene, found, .. } = analysis.at(frame);
         let motions = motions_by_block(scene, motions);
         let mut fall = Fall { scene, frame, found, joints: Vec::new(), motions };
         fall.joints = fall.found_joints(friction);

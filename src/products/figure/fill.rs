@@ -7,9 +7,9 @@
 //! a force limit, every block shows its amplitude as a fraction of the largest amplitude.
 
 use super::option::Fill;
-use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis};
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, SolvedFrame};
+use crate::mechanics::scene::BlockId;
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::mechanics::scene::{BlockId, Frame, Scene};
 use crate::pictures::drawing::{Colour, PLASMA, Theme};
 use crate::products::wording::number::quantity;
 
@@ -40,19 +40,15 @@ impl Fills {
     /// Computes the share of each block in all frames: the position of its colour on the colour scale. `rule` selects
     /// the quantity that colours show.
     pub fn new(analysis: &Analysis, rule: Fill) -> Fills {
-        let scene = &analysis.scene;
-        let each = |amount: fn(&Scene, &Frame, &FrameAnalysis) -> Vec<f64>| -> Vec<Vec<f64>> {
-            let frames = scene.frames.iter().zip(&analysis.frames);
-            frames.map(|(frame, frame_analysis)| amount(scene, frame, frame_analysis)).collect()
-        };
+        let each = |amount: fn(SolvedFrame<'_>) -> Vec<f64>| -> Vec<Vec<f64>> { analysis.each().map(amount).collect() };
         let (scale, shares) = match rule {
             Fill::Amplitude => to_largest(each(amplitudes), FillScale::Largest),
             Fill::None | Fill::Stress | Fill::Friction => {
-                (FillScale::Plain, each(|_, frame, _| vec![0.0; frame.placed.len()]))
+                (FillScale::Plain, each(|solved| vec![0.0; solved.frame().placed.len()]))
             }
             Fill::Source => source(analysis, each(amplitudes)),
         };
-        Fills { scale, shares, rule, units: scene.units }
+        Fills { scale, shares, rule, units: analysis.given().units }
     }
 
     /// Returns the colour of each placed block of a frame, in placing order, and its meaning in words.
@@ -132,20 +128,20 @@ fn to_largest(amounts: Vec<Vec<f64>>, scale: impl Fn(f64) -> FillScale) -> (Fill
 /// Computes the shares by the rule of the thesis, which the documentation of this module describes. `amplitudes` are
 /// those of the placed blocks of each frame, N. Returns the colour scale, and the share of each block.
 fn source(analysis: &Analysis, amplitudes: Vec<Vec<f64>>) -> (FillScale, Vec<Vec<f64>>) {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let limits = scene.robots.iter().flat_map(|r| [r.limits.fx, r.limits.fy]);
     let limit = limits.fold(f64::INFINITY, f64::min);
     if !limit.is_finite() {
         return to_largest(amplitudes, FillScale::Largest);
     }
-    let frames = scene.frames.iter().zip(&analysis.frames);
-    let shares = frames
+    let shares = analysis
+        .each()
         .zip(amplitudes)
-        .map(|((frame, frame_analysis), amplitudes)| {
+        .map(|(solved, amplitudes)| {
             let of_block = |(block, amplitude): (&BlockId, f64)| {
-                robot_limit_used(scene, frame_analysis, *block).unwrap_or_else(|| share(amplitude, limit))
+                robot_limit_used(solved, *block).unwrap_or_else(|| share(amplitude, limit))
             };
-            frame.placed.iter().zip(amplitudes).map(of_block).collect()
+            solved.frame().placed.iter().zip(amplitudes).map(of_block).collect()
         })
         .collect();
     (FillScale::Limit(limit), shares)
@@ -164,7 +160,8 @@ fn share(amount: f64, limit: f64) -> f64 {
 
 /// Returns the used fraction of the force limits of the robot that holds this block: the larger of |Fx| / limit and
 /// |Fy| / limit. Returns `None` if no robot holds the block, or if the robot has no limit for its force.
-fn robot_limit_used(scene: &Scene, frame_analysis: &FrameAnalysis, block: BlockId) -> Option<f64> {
+fn robot_limit_used(solved: SolvedFrame<'_>, block: BlockId) -> Option<f64> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let robot = frame_analysis.robots.iter().find(|r| r.block == block)?;
     let limits = scene.robots[robot.robot.0].limits;
     if !limits.fx.is_finite() && !limits.fy.is_finite() {
@@ -182,16 +179,16 @@ pub(super) fn raise(most: &mut [f64], frame_analysis: &FrameAnalysis, amount: im
 }
 
 /// Returns, for each placed block in placing order, the largest value of `amount` on the interfaces of the block.
-fn largest(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis, amount: impl Fn(&Contact) -> f64) -> Vec<f64> {
-    let mut most = vec![0.0_f64; scene.blocks.len()];
-    raise(&mut most, frame_analysis, amount);
-    frame.placed.iter().map(|block| most[block.0]).collect()
+fn largest(solved: SolvedFrame<'_>, amount: impl Fn(&Contact) -> f64) -> Vec<f64> {
+    let mut most = vec![0.0_f64; solved.scene.blocks.len()];
+    raise(&mut most, solved.found, amount);
+    solved.frame().placed.iter().map(|block| most[block.0]).collect()
 }
 
 /// Returns, for each placed block in placing order, the larger of its weight and the largest normal force on its
 /// interfaces, N.
-fn amplitudes(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<f64> {
-    let normals = largest(scene, frame, frame_analysis, Contact::normal_force);
-    let weights = frame.placed.iter().map(|b| scene.blocks[b.0].weight);
+fn amplitudes(solved: SolvedFrame<'_>) -> Vec<f64> {
+    let normals = largest(solved, Contact::normal_force);
+    let weights = solved.frame().placed.iter().map(|b| solved.scene.blocks[b.0].weight);
     normals.into_iter().zip(weights).map(|(n, w)| n.max(w)).collect()
 }

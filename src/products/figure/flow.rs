@@ -55,7 +55,7 @@ impl Figure for ForceFlow {
 
     /// Returns the scale of loads and missing forces, which have one scale.
     fn scale(&self, view: &View<'_>, look: Look) -> f64 {
-        let loads = view.analysis.scene.loads.iter().map(|load| load.force.norm());
+        let loads = view.analysis.each().flat_map(|solved| &solved.scene.loads).map(|load| load.force.norm());
         let missing = view.analysis.frames.iter().flat_map(|frame| &frame.failures).map(|f| f.force().norm());
         look.mm(LONGEST_ARROW) / loads.chain(missing).fold(f64::MIN_POSITIVE, f64::max)
     }
@@ -105,7 +105,7 @@ struct Bands {
 impl Bands {
     fn new(canvas: &Canvas<'_>) -> Bands {
         let scale = canvas.in_units(LARGEST_BAND_WIDTH) / largest(&canvas.analysis.frames).max(f64::MIN_POSITIVE);
-        let strands = strands(canvas.scene(), canvas.frame(), canvas.found(), canvas.camera.metres(scale));
+        let strands = strands(canvas.solved(), canvas.camera.metres(scale));
         let joined = canvas.frame().placed.len() > MAX_SINGLE_STRANDS;
         Bands { strands, scale, least: canvas.mm(MIN_BAND_WIDTH), joined }
     }
@@ -199,7 +199,7 @@ fn title(canvas: &Canvas<'_>, strand: &Strand) -> String {
 
 /// Draws a dot at the point of action of the resultant of each joint with a force.
 fn dots(canvas: &mut Canvas<'_>) {
-    let (scene, found, theme) = (canvas.scene(), canvas.found(), canvas.theme());
+    let (scene, theme) = (canvas.scene(), canvas.theme());
     let radius = canvas.in_units((0.06, 0.2, 0.6));
     let dot = |at: PagePoint, radius: f64| {
         vec![Path::filled(Outline::circle(at, radius), theme.ink).cased(theme.page, 0.3 * radius)]
@@ -208,7 +208,7 @@ fn dots(canvas: &mut Canvas<'_>) {
     let symbol = dot(PagePoint::new(of_key, 0.0), of_key);
     let words = "resultant of a joint";
     let key = Key::new(24, words, symbol, 2.0 * of_key);
-    for (contact, _) in pressed(scene, found) {
+    for (contact, _) in pressed(canvas.solved()) {
         let pair = pair(scene, contact.interface.bodies);
         let amount = canvas.newtons(contact.amount());
         let shapes = dot(canvas.place(contact.resultant.at), radius);

@@ -60,13 +60,13 @@ impl Figure for FreeBody {
 
     fn subject(&self, analysis: &Analysis, options: &Options, frames: Option<&[usize]>) -> Subject {
         let block = shown_block(analysis, options);
-        let placed = |frame: &usize| analysis.scene.frames[*frame].placed.contains(&block);
+        let placed = |frame: &usize| analysis.given().frames[*frame].placed.contains(&block);
         let frames: Vec<usize> = match frames {
             Some(frames) => frames.iter().copied().filter(placed).collect(),
             None => (0..analysis.frames.len()).rev().find(placed).into_iter().collect(),
         };
         let views = frames.iter().map(|frame| view(analysis, block, &contacts(analysis, *frame, block)));
-        let own = analysis.scene.blocks.get(block.0).map(|block| block.body.polygon.bounds());
+        let own = analysis.given().blocks.get(block.0).map(|block| block.body.polygon.bounds());
         let bounds = views.reduce(|a, b| a.union(b)).or(own);
         let Some(bounds) = bounds else { return Subject::structure(analysis, options, Some(&frames)) };
         let side = own.map_or(1.0, |own| own.width().max(own.height()));
@@ -74,7 +74,7 @@ impl Figure for FreeBody {
     }
 
     fn caption(&self, analysis: &Analysis, frame: usize, options: &Options) -> String {
-        let scene = &analysis.scene;
+        let scene = analysis.given();
         let Some(block) = scene.blocks.get(shown_block(analysis, options).0) else { return String::new() };
         let mut words = format!("Block {} cut free", block.id);
         if scene.frames.len() > 1 {
@@ -88,7 +88,7 @@ impl Figure for FreeBody {
 
     fn verdict(&self, analysis: &Analysis, frame: usize) -> String {
         let word = verdict::badge(&analysis.frames[frame]);
-        if analysis.scene.frames[frame].placed.len() > 1 { format!("the structure {word}") } else { word.to_owned() }
+        if analysis.given().frames[frame].placed.len() > 1 { format!("the structure {word}") } else { word.to_owned() }
     }
 
     fn words(&self, _analysis: &Analysis, _frame: usize, _options: &Options) -> Vec<String> {
@@ -138,7 +138,7 @@ fn shown_block(analysis: &Analysis, options: &Options) -> BlockId {
         BodyId::Block(id) => Some(id),
         BodyId::Ground(_) => None,
     });
-    let placed = || analysis.scene.frames.iter().rev().find_map(|frame| frame.placed.first().copied());
+    let placed = || analysis.given().frames.iter().rev().find_map(|frame| frame.placed.first().copied());
     block.or_else(placed).unwrap_or(BlockId(0))
 }
 

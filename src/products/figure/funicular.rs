@@ -16,8 +16,8 @@
 
 use super::bearing::pressing;
 use crate::geometry::{Point, Polygon, Vector, cross, quarter_turn};
-use crate::mechanics::analysis::{ActingForce, ForceKind, FrameAnalysis, Verdict, by_block};
-use crate::mechanics::scene::{AppliedForce, Block, BlockId, Frame, Scene};
+use crate::mechanics::analysis::{ActingForce, ForceKind, SolvedFrame, Verdict, by_block};
+use crate::mechanics::scene::{AppliedForce, Block, BlockId};
 
 /// A line passes through a point if their distance is below this fraction of the block's size. Forces have a relative
 /// accuracy of about 1e-9, so rounding errors are far smaller.
@@ -56,12 +56,13 @@ pub(crate) struct ThrustSegment {
 
 /// Returns the segments of the line of thrust of a frame, block by block in placing order. In a frame that falls, the
 /// line may leave the blocks.
-pub(crate) fn segments(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<ThrustSegment> {
+pub(crate) fn segments(solved: SolvedFrame<'_>) -> Vec<ThrustSegment> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let may_leave = frame_analysis.verdict == Verdict::Unstable;
-    let pressing = by_block(pressing(scene, frame_analysis, |contact| contact.resultant.at), scene.blocks.len());
+    let pressing = by_block(pressing(solved, |contact| contact.resultant.at), scene.blocks.len());
     let applied = scene.applied_forces();
     let mut segments = Vec::new();
-    for id in &frame.placed {
+    for id in &solved.frame().placed {
         let forces = BlockForces {
             id: *id,
             block: &scene.blocks[id.0],

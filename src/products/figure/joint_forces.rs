@@ -104,7 +104,7 @@ fn largest(frames: &[Arc<FrameAnalysis>]) -> f64 {
 /// not meet in most blocks.
 fn scale(view: &View<'_>, look: Look) -> f64 {
     let analysis = view.analysis;
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let mut largest = largest(&analysis.frames);
     if largest <= 0.0 {
         // Without contact forces, weights and robots set the scale.
@@ -446,7 +446,7 @@ fn named(scene: &Scene, failure: &Failure) -> String {
 /// Draws the hinges and slips of the collapse that the line of the verdict names, below the forces and beside them.
 pub(crate) fn collapse(canvas: &mut Canvas<'_>) {
     let (analysis, number, found) = (canvas.analysis, canvas.number, canvas.found());
-    let governing = governing(canvas.scene(), number, found);
+    let governing = governing(canvas.solved());
     let moving = canvas.own().moving.get_or_init(|| Moving::governing(analysis, number, &governing));
     let mut joints = gives::of_fall(&moving.fall(analysis, number));
     // A missing friction is drawn at the same place, and shows the slip too.

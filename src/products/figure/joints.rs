@@ -16,8 +16,7 @@ use super::option::Options;
 use super::panel::{About, Figure};
 use super::{stage, verdict};
 use crate::geometry::Point;
-use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, ThrustState, Verdict};
-use crate::mechanics::scene::Scene;
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, MarginKind, SolvedFrame, ThrustState, Verdict};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::pictures::drawing::{Colour, Outline, PagePoint, Path, Stroke};
 use crate::products::wording::failure::pair;
@@ -57,14 +56,14 @@ impl Figure for Joints {
     }
 
     fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-        let (scene, found) = analysis.at(frame);
+        let solved @ SolvedFrame { found, .. } = analysis.at(frame);
         match found.verdict {
-            Verdict::Unstable if options.verdict_margin => governing(scene, frame, found).words,
+            Verdict::Unstable if options.verdict_margin => governing(solved).words,
             Verdict::Unstable => Vec::new(),
-            Verdict::Undecided => vec![format!("no resultants; {}", reason(scene, found))],
+            Verdict::Undecided => vec![format!("no resultants; {}", reason(solved))],
             Verdict::Stable if !options.verdict_margin => Vec::new(),
-            Verdict::Stable if options.central => kernel_words(scene, found).into_iter().collect(),
-            Verdict::Stable => friction_words(scene, found).into_iter().chain(kernel_words(scene, found)).collect(),
+            Verdict::Stable if options.central => kernel_words(solved).into_iter().collect(),
+            Verdict::Stable => friction_words(solved).into_iter().chain(kernel_words(solved)).collect(),
         }
     }
 
@@ -88,8 +87,9 @@ impl Figure for Joints {
 }
 
 /// States the friction that the structure needs: `needs friction 0.337, has 0.6`.
-fn friction_words(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
-    let margins = stated(scene, found);
+fn friction_words(solved: SolvedFrame<'_>) -> Option<String> {
+    let SolvedFrame { scene, .. } = solved;
+    let margins = stated(solved);
     let of = |kind: MarginKind| margins.iter().find(|margin| margin.kind == kind);
     let needed = |kind| of(kind).and_then(|margin| confirmed(margin.interval.low()?));
     let present = of(MarginKind::Friction).and_then(|margin| margin.present);
@@ -104,8 +104,9 @@ fn friction_words(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
 }
 
 /// States which part of each joint may be lost: `0.384 of each joint may be lost`.
-fn kernel_words(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
-    let margins = stated(scene, found);
+fn kernel_words(solved: SolvedFrame<'_>) -> Option<String> {
+    let SolvedFrame { scene, found, .. } = solved;
+    let margins = stated(solved);
     let kernel = margins.iter().find(|margin| margin.kind == MarginKind::Kernel);
     let kernel = kernel.and_then(|margin| margin.interval.high()).map(|end| confirmed(end).unwrap_or(1.0));
     let has_length = found.contacts.iter().any(|contact| contact.interface.length() > 0.0);
@@ -168,8 +169,7 @@ impl<'a> Drawing<'a> {
     /// Draws each joint as a line whose colour shows the used share of the available friction, with a dot where the
     /// resultant acts. The line is as long as the part in which the resultant may act.
     fn joints(&self, canvas: &mut Canvas<'_>) {
-        let scene = canvas.scene();
-        let bearings = bearings(scene, &self.found);
+        let bearings = bearings(canvas.solved().with(&self.found));
         let all = self.found.contacts.iter().zip(bearings);
         // The dots of corner contacts come last, because the line of a joint could cover them.
         let (corners, edges): (Vec<_>, Vec<_>) =

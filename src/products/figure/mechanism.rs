@@ -24,7 +24,7 @@ use super::moving::Moving;
 use super::option::{At, Options};
 use super::panel::{About, Figure};
 use super::{collapse, description, gives};
-use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
+use crate::mechanics::analysis::{Analysis, MarginKind, SolvedFrame, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId};
 use crate::pictures::drawing::{Outline, Path, Stroke};
 use crate::products::wording::margin::governing;
@@ -73,7 +73,7 @@ impl Figure for Mechanism {
 
     /// Returns what the frame lacks to stand or how far it is from the motion, and how it begins to move.
     fn words(&self, analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-        let (scene, found) = analysis.at(frame);
+        let solved @ SolvedFrame { found, .. } = analysis.at(frame);
         if options.film {
             return match found.verdict {
                 _ if !Moving::new(analysis, frame, options).motions.is_empty() => {
@@ -86,9 +86,9 @@ impl Figure for Mechanism {
         let words = match options.at {
             Some(At::Vehicle) if found.vehicle.is_some() => return vehicle::words(analysis, frame, options),
             Some(At::Movement) if !found.movements.is_empty() => return movement::words(analysis, frame, options),
-            Some(At::Margin(kind)) if options.verdict_margin => vec![margin::words(scene, found, kind)],
-            Some(At::Placement) => placement::words(scene, found),
-            _ if found.verdict == Verdict::Unstable && options.verdict_margin => governing(scene, frame, found).words,
+            Some(At::Margin(kind)) if options.verdict_margin => vec![margin::words(solved, kind)],
+            Some(At::Placement) => placement::words(solved),
+            _ if found.verdict == Verdict::Unstable && options.verdict_margin => governing(solved).words,
             Some(At::Vehicle) if found.verdict == Verdict::Stable => {
                 vec!["no position of a vehicle was analysed".to_owned()]
             }

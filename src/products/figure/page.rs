@@ -7,7 +7,7 @@ use super::design::{Key, Look};
 use super::option::Options;
 use super::panel::Figure;
 use super::verdict;
-use crate::mechanics::analysis::{Analysis, FrameAnalysis};
+use crate::mechanics::analysis::{Analysis, FrameAnalysis, SolvedFrame};
 use crate::pictures::drawing::{Anchor, Colour, Drawing, Face, Group, Item, PagePoint, Text, text};
 use crate::products::wording::number::{counted, quantity};
 use crate::products::wording::verdict::reason;
@@ -117,16 +117,16 @@ impl Arrangement<'_> {
 
     /// Describes a frame in a sentence, for screen readers.
     fn described(&self, one: &Shown<'_>) -> String {
-        let (scene, found) = (&one.analysis.scene, one.found());
+        let solved @ SolvedFrame { scene, found, .. } = one.analysis.at(one.frame);
         if !one.picture.description.is_empty() {
             return one.picture.description.clone();
         }
-        let blocks = counted(scene.frames[one.frame].placed.len(), "block");
+        let blocks = counted(solved.frame().placed.len(), "block");
         let weight = quantity(found.weight, scene.units.force());
         let mut parts = vec![format!("{blocks}, {weight} in all")];
         if self.options.verdicts {
             parts[0] = format!("{}, {}", parts[0], found.verdict.plain());
-            parts.push(reason(scene, found));
+            parts.push(reason(solved));
             parts.extend(self.words(one));
             parts.extend(found.notices.iter().cloned());
         }

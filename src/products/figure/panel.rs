@@ -6,7 +6,7 @@ use super::design::{Look, zoomed_view};
 use super::option::Options;
 use super::{load, stage, verdict};
 use crate::geometry::{Bounds, Point};
-use crate::mechanics::analysis::{Analysis, MarginKind, Verdict};
+use crate::mechanics::analysis::{Analysis, MarginKind, SolvedFrame, Verdict};
 use crate::pictures::drawing::Group;
 use crate::products::wording::margin::governing;
 use crate::products::wording::number::letter;
@@ -42,7 +42,7 @@ pub(crate) struct Subject {
 impl Subject {
     /// The structure in all frames, or the neighbourhood of the block of the option `zoom`.
     pub fn structure(analysis: &Analysis, options: &Options, frames: Option<&[usize]>) -> Subject {
-        let scene = &analysis.scene;
+        let scene = analysis.given();
         let frames = frames.map_or_else(|| (0..analysis.frames.len()).collect(), <[usize]>::to_vec);
         if let Some(block) = options.zoom {
             let side = scene.blocks[block.0].body.polygon.area().sqrt();
@@ -136,7 +136,7 @@ pub(crate) trait Figure: Sync {
 /// Returns the caption of a frame: its letter and its title, in a figure of several frames. In a zoomed figure, the
 /// caption also names the block in the centre.
 pub(crate) fn caption(analysis: &Analysis, frame: usize, options: &Options) -> String {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let own = &scene.frames[frame].title;
     let mut parts = Vec::new();
     if scene.frames.len() > 1 {
@@ -153,19 +153,16 @@ pub(crate) fn caption(analysis: &Analysis, frame: usize, options: &Options) -> S
 
 /// Returns the headline margin of a frame, or what decides if no margin does.
 pub(crate) fn margin_words(analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-    let (scene, found) = analysis.at(frame);
+    let solved @ SolvedFrame { scene, found, .. } = analysis.at(frame);
     let unexplained =
         found.verdict == Verdict::Undecided || found.verdict == Verdict::Unstable && found.failures.is_empty();
     // The panels of a strip are too narrow for margins.
-    let mut margin = if options.verdict_margin && analysis.frames.len() == 1 {
-        governing(scene, frame, found).words
-    } else {
-        Vec::new()
-    };
+    let mut margin =
+        if options.verdict_margin && analysis.frames.len() == 1 { governing(solved).words } else { Vec::new() };
     // The placement tolerance is computed only if it was asked for; in a strip it shows which step is delicate.
     margin.extend(found.placement.as_ref().map(|placement| question::placement_proved(scene, placement)));
     if margin.is_empty() && unexplained {
-        let reason = reason(scene, found);
+        let reason = reason(solved);
         return if reason.is_empty() { Vec::new() } else { vec![reason] };
     }
     margin

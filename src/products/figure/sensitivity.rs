@@ -14,7 +14,9 @@ use super::option::Options;
 use super::panel::{About, Figure};
 use super::placing::Label;
 use crate::geometry::{Point, Vector};
-use crate::mechanics::analysis::{Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope};
+use crate::mechanics::analysis::{
+    Analysis, CornerMoves, EndSensitivity, FrameAnalysis, MarginKind, Slope, SolvedFrame,
+};
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Colour, Face, Group, Outline, PagePoint, Path, Text, Theme, text};
 use crate::products::wording::failure::pair;
@@ -267,7 +269,7 @@ impl Plan {
     /// Computes the arrows and the numbered changes of a frame. Returns `None` if the derivatives of the frame's margin
     /// are not known.
     pub fn new(analysis: &Analysis, frame: usize, options: &Options) -> Option<Plan> {
-        let (scene, frame_analysis) = (&analysis.scene, analysis.frames.get(frame)?);
+        let solved @ SolvedFrame { scene, found: frame_analysis, .. } = analysis.each().nth(frame)?;
         let sensitivity = frame_analysis.sensitivity.as_ref()?;
         let (is_high, end) = sensitivity.nearest()?;
         let kind = sensitivity.kind;
@@ -277,11 +279,11 @@ impl Plan {
             (0 | 1, true) => MAX_NUMBERED.1,
             _ => MAX_NUMBERED.2,
         };
-        let mut changes = visible(scene, frame_analysis, (kind, end, is_high), most);
+        let mut changes = visible(solved, (kind, end, is_high), most);
         let effect = |change: &EffectiveChange| (change.after - end.value).abs();
         let least = changes.iter().map(effect).fold(0.0, f64::max) * LEAST_EFFECT;
         changes.retain(|change| effect(change) >= least);
-        let step = step_length(scene, frame_analysis);
+        let step = step_length(solved);
         let outward = if is_high { 1.0 } else { -1.0 };
         let number_of = |corner: usize| {
             let is_this =
@@ -323,7 +325,7 @@ impl Plan {
 /// Returns the length, in metres, of an arrow that shows a growth of the margin of 1 per metre. The scale is the same
 /// in all frames; it is 0 if there are no arrows.
 fn scale(analysis: &Analysis, unit: f64, options: &Options) -> f64 {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let frames = 0..analysis.frames.len();
     let plans = frames.filter_map(|frame| Plan::new(analysis, frame, options));
     let strongest = plans.map(|plan| plan.strongest()).fold(0.0, f64::max);

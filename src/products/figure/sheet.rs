@@ -351,7 +351,7 @@ impl<'a> Sheet<'a> {
     /// Draws the pictures of these frames with `zoom` pixels per metre.
     fn drawn(&self, frames: &[usize], zoom: f64) -> Pictures {
         let size = self.subject.block.0 * zoom / self.look.mm(1.0);
-        let blocks = self.analysis.scene.frames.iter().map(|frame| frame.placed.len()).max().unwrap_or(0);
+        let blocks = self.analysis.given().frames.iter().map(|frame| frame.placed.len()).max().unwrap_or(0);
         let narrow = self.columns >= 3 && self.width < self.look.mm(COLUMN_WIDTH);
         let look = Look {
             large: size >= LARGE_BLOCK && blocks <= FEW,
@@ -396,6 +396,6 @@ impl<'a> Sheet<'a> {
             let picture = pictures.of(*frame)?;
             Some(Shown { analysis: self.analysis, frame: *frame, number: frame + 1, picture, caption })
         });
-        self.arrangement().page(&shown.collect::<Vec<_>>(), pictures.sides, &self.analysis.scene.title)
+        self.arrangement().page(&shown.collect::<Vec<_>>(), pictures.sides, &self.analysis.given().title)
     }
 }

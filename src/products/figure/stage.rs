@@ -268,7 +268,7 @@ pub(crate) fn robot_limits(canvas: &mut Canvas<'_>) {
     let symbol = diamond(canvas, PagePoint::new(canvas.mm(0.8), 0.0));
     let words = "robot at its limit";
     let key = Key::new(LIMIT_RANK, words, symbol, canvas.mm(1.6));
-    for robot in robots_reached(scene, canvas.found()) {
+    for robot in robots_reached(canvas.solved()) {
         let title = format!("Robot {} is at its limit", scene.robots[robot.robot.0].id);
         let mark = Mark::new(Layer::Symbol, "limit", diamond(canvas, canvas.place(robot.at)));
         canvas.put(mark.titled(title).keyed(&key).avoided(0.2));

@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use super::fall::motions_by_block;
 use crate::geometry::Vector;
-use crate::mechanics::analysis::{Analysis, FrameAnalysis, Motion, Verdict};
-use crate::mechanics::scene::{BlockId, Scene};
+use crate::mechanics::analysis::{Analysis, Motion, SolvedFrame, Verdict};
+use crate::mechanics::scene::BlockId;
 
 /// Largest distance of a block from the mirror image of its partner, as a fraction of the diagonal of the structure, and
 /// the largest relative difference of areas and weights.
@@ -25,7 +25,7 @@ pub(crate) fn symmetric(proved: &Analysis, mut elementary: Analysis) -> Analysis
     elementary.change_each(|number, _, frame| {
         if frame.verdict == Verdict::Unstable
             && frame.robots.is_empty()
-            && let Some(motions) = summed(&proved.scene, number, &proved.frames[number], &frame.mechanism)
+            && let Some(motions) = summed(proved.at(number), &frame.mechanism)
         {
             Arc::make_mut(frame).mechanism = motions;
         }
@@ -35,8 +35,9 @@ pub(crate) fn symmetric(proved: &Analysis, mut elementary: Analysis) -> Analysis
 
 /// Returns the sum of motions and of their mirror images; `None` if the structure or the motion of the proof is not
 /// symmetric, or if the sum is no motion worth drawing.
-fn summed(scene: &Scene, number: usize, proved: &FrameAnalysis, motions: &[Motion]) -> Option<Vec<Motion>> {
-    let placed = &scene.frames[number].placed;
+fn summed(solved: SolvedFrame<'_>, motions: &[Motion]) -> Option<Vec<Motion>> {
+    let SolvedFrame { scene, found: proved, .. } = solved;
+    let placed = &solved.frame().placed;
     let bounds = scene.bounds(placed)?;
     let axis = 0.5 * (bounds.min.x + bounds.max.x);
     let near = MIRROR_TOL * bounds.diagonal();

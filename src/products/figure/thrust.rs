@@ -67,9 +67,9 @@ impl Figure for ThrustLine {
     }
 
     fn draw(&self, canvas: &mut Canvas<'_>) {
-        let (scene, states) = (canvas.scene(), states(canvas, canvas.number));
+        let states = states(canvas, canvas.number);
         let found = shown(states, canvas.found());
-        let segments = segments(scene, canvas.frame(), &found);
+        let segments = segments(canvas.solved().with(&found));
         // The ground ends beside the structure, not below the force polygon.
         let all = canvas.structure;
         if canvas.window.is_none() {
@@ -119,8 +119,8 @@ fn shown<'a>(states: &'a ThrustStates, found: &'a FrameAnalysis) -> Cow<'a, Fram
 
 /// Returns the words after the verdict.
 fn words(canvas: &Canvas<'_>, shown: &FrameAnalysis) -> Vec<String> {
-    let (scene, found, states) = (canvas.scene(), canvas.found(), states(canvas, canvas.number));
-    let why = verdict::reason(scene, found);
+    let (found, states) = (canvas.found(), states(canvas, canvas.number));
+    let why = verdict::reason(canvas.solved());
     let parts = |words: String| if words.is_empty() { Vec::new() } else { vec![words] };
     let state = match found.verdict {
         Verdict::Undecided => return vec![format!("no line of thrust is proved; {why}")],
@@ -150,10 +150,11 @@ fn words(canvas: &Canvas<'_>, shown: &FrameAnalysis) -> Vec<String> {
 /// States the horizontal thrust H at the crown: that of the line shown, and the least and the greatest. If loads act
 /// sideways between crown and supports, the thrust at the supports follows. Empty in a figure of several frames.
 fn thrusts(canvas: &Canvas<'_>, states: &ThrustStates) -> Vec<String> {
-    let scene = canvas.scene();
-    let [frame] = &scene.frames[..] else { return Vec::new() };
+    if canvas.analysis.frames.len() != 1 {
+        return Vec::new();
+    }
     let amount = |newtons: f64| canvas.newtons(newtons);
-    let crown = |state: &ThrustState| Some(chains(scene, frame, &state.frame).first()?.crown_thrust);
+    let crown = |state: &ThrustState| Some(chains(canvas.solved().with(&state.frame)).first()?.crown_thrust);
     let stated = |of: &dyn Fn(&ThrustState) -> Option<f64>| {
         let shown = amount(of(states.central.as_ref()?)?);
         let range = [&states.least, &states.greatest].map(|state| state.as_ref().and_then(of).map(amount));
@@ -311,7 +312,7 @@ fn title(canvas: &Canvas<'_>, segment: &ThrustSegment) -> String {
 /// Draws a dot at the point where the resultant of each interface acts, and a ring where it lies outside the stone.
 fn dots(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, keys: &Keys) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
-    for (contact, _) in pressed(scene, shown) {
+    for (contact, _) in pressed(canvas.solved().with(shown)) {
         let (at, pair) = (canvas.place(contact.resultant.at), pair(scene, contact.interface.bodies));
         let mark = if let Some(end) = left_at(contact) {
             let out = Outline::line([canvas.place(end), at]);
@@ -349,7 +350,7 @@ fn ring(canvas: &Canvas<'_>, at: PagePoint) -> Path {
 
 /// Draws the thin lines of least and of greatest thrust. A line whose state is not known is left out.
 fn limits(canvas: &mut Canvas<'_>, states: &ThrustStates) {
-    let (scene, theme) = (canvas.scene(), canvas.theme());
+    let theme = canvas.theme();
     let both = [
         (&states.least, "thrust-least", "Least thrust", 12),
         (&states.greatest, "thrust-greatest", "Greatest thrust", 13),
@@ -358,7 +359,7 @@ fn limits(canvas: &mut Canvas<'_>, states: &ThrustStates) {
         let Some(state) = state else { continue };
         let ink = theme.motion.mixed(theme.ink, 0.45);
         let stroke = canvas.dashes(ink, LIMIT_WIDTH, dashes);
-        let pieces = segments(scene, canvas.frame(), &state.frame).into_iter();
+        let pieces = segments(canvas.solved().with(&state.frame)).into_iter();
         let outline = Outline::lines(pieces.map(|piece| [piece.from, piece.to].map(|p| canvas.place(p))));
         let key = Key::line(rank, name.to_lowercase(), canvas.mm(KEY_LENGTH), stroke.clone());
         let thrust = canvas.newtons(state.thrust);

@@ -10,7 +10,7 @@ const MAX_BLOCKS: usize = 200;
 
 /// True if every frame has so few blocks that its margins take little time.
 pub(crate) fn has_cheap_margins(analysis: &Analysis) -> bool {
-    analysis.scene.frames.iter().all(|frame| frame.placed.len() <= MAX_BLOCKS)
+    analysis.given().frames.iter().all(|frame| frame.placed.len() <= MAX_BLOCKS)
 }
 
 /// Returns the colour of the symbol of a verdict.

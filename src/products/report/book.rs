@@ -290,7 +290,7 @@ fn drawing(analysis: &Analysis, request: &FigureRequest, options: figure::Option
         View::from_name(name).ok_or_else(|| format!("there is no kind of figure {name:?}; known are {}", known()))?;
     let (kind, mut options) = (view.kind, view.options(&options));
     if kind.shows_one_block() {
-        let scene = &analysis.scene;
+        let scene = analysis.given();
         let block = match &request.block {
             Some(id) => scene.blocks.iter().position(|b| b.id == *id),
             None => (scene.blocks.len() == 1).then_some(0),

@@ -6,18 +6,13 @@ use super::margin::{case, margins_of};
 use super::question::{capacity, conditions, movement, placement, removable, vehicle, wedging};
 use super::sensitivity::sensitivity;
 use crate::geometry::Point;
-use crate::mechanics::analysis::{Contact, EffectName, Failure, FrameAnalysis, Proof, RobotForce, SolveReport, Stages};
+use crate::mechanics::analysis::{Contact, EffectName, Failure, Proof, RobotForce, SolveReport, SolvedFrame, Stages};
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
 
 /// Returns one entry of the key `frames`. `blocks` are the placed blocks, if they were requested.
-pub(super) fn frame<'a>(
-    scene: &'a Scene,
-    title: &'a str,
-    frame: &'a FrameAnalysis,
-    blocks: Option<&[BlockId]>,
-    timing: Timing,
-) -> Json<'a> {
+pub(super) fn frame<'a>(solved: SolvedFrame<'a>, blocks: Option<&[BlockId]>, timing: Timing) -> Json<'a> {
+    let SolvedFrame { scene, found: frame, .. } = solved;
     let is_simulated = |effect: EffectName| frame.effects.iter().any(|e| e.effect == effect && e.simulated);
     let cases = frame.cases.as_ref();
     let envelope = cases.iter().flat_map(|cases| cases.envelope.iter().enumerate()).map(|(interface, range)| {
@@ -32,7 +27,7 @@ pub(super) fn frame<'a>(
         }
     });
     object! {
-        title: title,
+        title: &solved.frame().title,
         verdict: frame.verdict.word(),
         doubt: Json::from(frame.doubt()).unless_empty(),
         length: frame.length,
@@ -49,7 +44,7 @@ pub(super) fn frame<'a>(
         corners_decide: frame.corners_decide.then_some(true),
         mechanism: motions(scene, &frame.mechanism),
         margins: frame.margins.as_ref().map(|margins| margins_of(scene, margins)),
-        sensitivity: frame.sensitivity.as_ref().map(|found| sensitivity(scene, frame, found)),
+        sensitivity: frame.sensitivity.as_ref().map(|found| sensitivity(solved, found)),
         placement: frame.placement.as_ref().map(|found| placement(scene, found)),
         cases: Json::list(cases.iter().flat_map(|cases| &cases.each).map(|own| case(scene, own))).unless_empty(),
         governing_case: cases.map(|cases| &cases.each[cases.governing].id),
@@ -62,7 +57,7 @@ pub(super) fn frame<'a>(
         governing_position: frame.under_vehicle.and_then(|under| under.position),
         capacity: frame.capacity.as_ref().map(|found| capacity(scene, found)),
         only_by_wedging: is_simulated(EffectName::Wedging).then(|| Json::or_null(frame.only_by_wedging)),
-        wedging: frame.wedged.as_ref().map(|wedged| wedging(scene, frame, wedged)),
+        wedging: frame.wedged.as_ref().map(|wedged| wedging(solved, wedged)),
         effects: Json::list(effects),
         proof: proof(frame.proof, frame.exact),
         solve: solve(&frame.solve, timing),

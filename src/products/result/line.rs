@@ -194,7 +194,7 @@ pub enum PictureOutcome {
 pub fn line_of(origin: &Origin, analysis: &Analysis, picture: &PictureOutcome, fields: &Fields) -> String {
     let mut line = line_start(origin);
     if fields.are_few() {
-        line.extend(few(&analysis.scene.title, analysis.verdict(), fields));
+        line.extend(few(&analysis.given().title, analysis.verdict(), fields));
     } else {
         let timing = if fields.ask(&["frames", "solve"]) { Timing::Included } else { Timing::LeftOut };
         let result = Result { file: None, analysis, blocks: fields.ask(&["frames", "blocks"]), timing };

@@ -130,7 +130,7 @@ struct Result<'a> {
 impl<'a> Result<'a> {
     /// Returns the keys before `frames`.
     fn head(&self) -> Vec<(&'a str, Json<'a>)> {
-        let scene = &self.analysis.scene;
+        let scene = self.analysis.given();
         let notes = self.analysis.notes.iter().map(|note| {
             object! {
                 code: note.code.word(),
@@ -153,10 +153,9 @@ impl<'a> Result<'a> {
 
     fn frames(&self) -> impl Iterator<Item = Json<'a>> {
         let (analysis, blocks, timing) = (self.analysis, self.blocks, self.timing);
-        let steps = analysis.scene.frames.iter().zip(&analysis.frames).enumerate();
-        steps.map(move |(number, (step, found))| {
-            let placed = blocks.then_some(&step.placed[..]);
-            frame::frame(analysis.scene_of(number), &step.title, found, placed, timing)
+        analysis.each().map(move |solved| {
+            let placed = blocks.then_some(&solved.frame().placed[..]);
+            frame::frame(solved, placed, timing)
         })
     }
 }

@@ -3,7 +3,7 @@
 use super::json::{Json, compact, motions, object};
 use crate::mechanics::analysis::{
     Condition, FrameAnalysis, Influence, LoadCapacity, MarginKind, Motion, MovementOutcome, Placement, Removable,
-    RuledOut, Slide, SupportMovement, Verdict, Wedged,
+    RuledOut, Slide, SolvedFrame, SupportMovement, Verdict, Wedged,
 };
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::text::Word;
@@ -150,7 +150,8 @@ pub(super) fn capacity<'a>(scene: &'a Scene, found: &LoadCapacity) -> Json<'a> {
 ///
 /// Each motion includes the point of the block to which its velocity refers. The motion can therefore be checked
 /// against the interfaces and forces in the same result, without the scene.
-pub(super) fn wedging<'a>(scene: &'a Scene, frame: &FrameAnalysis, wedged: &Wedged) -> Json<'a> {
+pub(super) fn wedging<'a>(solved: SolvedFrame<'a>, wedged: &Wedged) -> Json<'a> {
+    let SolvedFrame { scene, found: frame, .. } = solved;
     let motion = |motions: &[Motion]| {
         Json::list(motions.iter().map(|motion| {
             let block = &scene.blocks[motion.block.0];

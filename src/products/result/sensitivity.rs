@@ -4,22 +4,23 @@
 
 use super::json::{Json, object};
 use crate::mechanics::analysis::{
-    CornerMoves, CornerSlope, EndSensitivity, FrameAnalysis, NoSensitivity, Sensitivity, Slope,
+    CornerMoves, CornerSlope, EndSensitivity, NoSensitivity, Sensitivity, Slope, SolvedFrame,
 };
 use crate::mechanics::scene::{BodyId, Scene};
 
 /// Returns the value of the key `sensitivity`.
-pub(super) fn sensitivity<'a>(scene: &'a Scene, frame: &FrameAnalysis, found: &Sensitivity) -> Json<'a> {
+pub(super) fn sensitivity<'a>(solved: SolvedFrame<'a>, found: &Sensitivity) -> Json<'a> {
     let absent = [("low", &found.low), ("high", &found.high)].into_iter();
     let absent = absent.filter_map(|(end, found)| Some(object! { end: end, reason: word(*found.as_ref().err()?) }));
     object! {
         parameter: found.kind.word(),
-        ends: Json::list(found.ends().map(|(is_high, found)| end(scene, frame, is_high, found))),
+        ends: Json::list(found.ends().map(|(is_high, found)| end(solved, is_high, found))),
         without_value: Json::list(absent),
     }
 }
 
-fn end<'a>(scene: &'a Scene, frame: &FrameAnalysis, is_high: bool, found: &EndSensitivity) -> Json<'a> {
+fn end<'a>(solved: SolvedFrame<'a>, is_high: bool, found: &EndSensitivity) -> Json<'a> {
+    let SolvedFrame { scene, found: frame, .. } = solved;
     let weights =
         (found.weights.iter()).map(|(block, slope)| object! { block: &scene.blocks[block.0].id }.and(one(*slope)));
     let friction = found.friction.iter().filter_map(|(interface, slope)| {

@@ -187,7 +187,7 @@ const LINES: &str = r#"{
 #[test]
 fn the_names_and_the_order_of_the_keys_do_not_change() {
     let scene = scene();
-    let analysis = Analysis { scene: scene.into(), frames: vec![frame().into()], notes: vec![], cases: None };
+    let analysis = Analysis::of_parts(scene, vec![frame().into()]);
     let expected = LINES.replace("VERSION", env!("CARGO_PKG_VERSION"));
     assert_eq!(to_json(&analysis, Timing::LeftOut, Layout::Lines), expected);
     let line = to_json(&analysis, Timing::Included, Layout::OneLine);
@@ -206,11 +206,7 @@ fn doubts_notices_and_weak_proofs_are_in_the_output() {
     frame.unsupported = vec![BlockId(1)];
     frame.notices = vec!["a contact of 1e-9 m is left out".into()];
     frame.proof = Proof::Forces { worst_imbalance: 1e-3, worst_share: 0.5, worst_pull: 0.0, worst_slip: -0.0 };
-    let json = to_json(
-        &Analysis { scene: scene.into(), frames: vec![frame.into()], notes: vec![], cases: None },
-        Timing::LeftOut,
-        Layout::Lines,
-    );
+    let json = to_json(&Analysis::of_parts(scene, vec![frame.into()]), Timing::LeftOut, Layout::Lines);
     assert!(json.contains(r#""doubt": "the time limit was reached before it was decided""#), "{json}");
     assert!(json.contains(r#""unsupported": ["b"]"#), "{json}");
     assert!(json.contains(r#""total_force_least": false"#), "{json}");

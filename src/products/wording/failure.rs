@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::number::{NO_BREAK, listed, place, quantity};
-use crate::mechanics::analysis::{Failure, FrameAnalysis};
+use crate::mechanics::analysis::{Failure, FrameAnalysis, SolvedFrame};
 use crate::mechanics::scene::{BlockId, BodyId, CornerContacts, RobotId, Scene};
 use crate::mechanics::statics::interface::{ContactKind, Interfaces};
 use crate::text::first_of;
@@ -119,7 +119,8 @@ pub fn missing_sentence(scene: &Scene, failure: &Failure) -> String {
 
 /// Names the blocks that even adhesion at all contacts could not hold: `nothing carries block a`. Returns `None` if
 /// there are no such blocks.
-pub fn unsupported_phrase(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
+pub fn unsupported_phrase(solved: SolvedFrame<'_>) -> Option<String> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let blocks = frame_analysis.unsupported.iter();
     let names: Vec<String> = blocks.map(|b| scene.blocks[b.0].id.clone()).collect();
     let what = if names.len() == 1 { "block" } else { "blocks" };
@@ -128,7 +129,8 @@ pub fn unsupported_phrase(scene: &Scene, frame_analysis: &FrameAnalysis) -> Opti
 
 /// Explains why blocks are unsupported: one sentence for each reason, each with the names of at most `max` blocks.
 /// Returns an empty list if all blocks are supported.
-pub fn unsupported(scene: &Scene, frame_analysis: &FrameAnalysis, max: usize) -> Vec<String> {
+pub fn unsupported(solved: SolvedFrame<'_>, max: usize) -> Vec<String> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let reached = reached(frame_analysis);
     let (touching, apart): (Vec<BlockId>, Vec<BlockId>) =
         frame_analysis.unsupported.iter().partition(|id| reached.contains(id));
@@ -143,7 +145,7 @@ pub fn unsupported(scene: &Scene, frame_analysis: &FrameAnalysis, max: usize) ->
             sentences.push(format!("nothing carries {names}: {reason}"));
         }
     }
-    sentences.extend(touching_corner(scene, frame_analysis));
+    sentences.extend(touching_corner(solved));
     sentences
 }
 
@@ -152,7 +154,8 @@ const MAX_BLOCKS_WITH_CORNERS: usize = 1000;
 
 /// If a corner of an unsupported block touches another body, returns a sentence that explains why this carries nothing.
 /// Returns `None` if there is no such corner, or if corners carry force in this scene.
-fn touching_corner(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
+fn touching_corner(solved: SolvedFrame<'_>) -> Option<String> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let unsupported = &frame_analysis.unsupported;
     if scene.corner_contacts.on_edges() || unsupported.is_empty() || scene.blocks.len() > MAX_BLOCKS_WITH_CORNERS {
         return None;

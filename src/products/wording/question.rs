@@ -6,7 +6,7 @@ use super::number::{NO_BREAK, amount, counted, digits, listed, place, quantity, 
 use crate::geometry::Point;
 use crate::mechanics::analysis::{
     Analysis, CaseResult, Condition, Crack, Cracked, FrameAnalysis, Influence, MarginKind, MovementOutcome, Placement,
-    PlacementLimit, Removable, SupportMovement, VehiclePosition, Verdict,
+    PlacementLimit, Removable, SolvedFrame, SupportMovement, VehiclePosition, Verdict,
 };
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::text::line;
@@ -89,7 +89,8 @@ pub fn placement_proved(scene: &Scene, placement: &Placement) -> String {
 }
 
 /// Describes the placement tolerance of a frame in one sentence without a full stop.
-pub fn placement_sentence(scene: &Scene, frame_analysis: &FrameAnalysis, placement: &Placement) -> String {
+pub fn placement_sentence(solved: SolvedFrame<'_>, placement: &Placement) -> String {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let stands = format!(
         "stands for all errors up to {} (all blocks, their centres of gravity and their loads at once)",
         placement_length(scene, placement.proved, three_down)
@@ -204,7 +205,8 @@ pub fn per_unit(amount: f64) -> String {
 }
 
 /// Describes the joints that open or slide most.
-pub fn cracks(scene: &Scene, found: &FrameAnalysis, cracked: &Cracked) -> String {
+pub fn cracks(solved: SolvedFrame<'_>, cracked: &Cracked) -> String {
+    let SolvedFrame { scene, found, .. } = solved;
     let mut widest: Vec<&Crack> = cracked.cracks.iter().collect();
     widest.sort_by(|a, b| b.opening.total_cmp(&a.opening).then(a.contact.cmp(&b.contact)));
     let one = |crack: &&Crack| {
@@ -221,13 +223,14 @@ pub fn cracks(scene: &Scene, found: &FrameAnalysis, cracked: &Cracked) -> String
 
 /// Returns one sentence, without a full stop, about a movement of a support: the force on the support, and which joints
 /// open or slide and by how much.
-pub fn movement_sentence(scene: &Scene, found: &FrameAnalysis, moved: &SupportMovement) -> String {
+pub fn movement_sentence(solved: SolvedFrame<'_>, moved: &SupportMovement) -> String {
+    let SolvedFrame { scene, .. } = solved;
     let first = movement(scene, moved);
     match &moved.outcome {
         MovementOutcome::Follows(cracked) => format!(
             "if {first}, the structure pushes it with {}; {} (small displacements; sliding also opens a joint)",
             movement_force(scene, cracked),
-            cracks(scene, found, cracked)
+            cracks(solved, cracked)
         ),
         other => format!("if {first}, {}", without_state(other)),
     }
@@ -235,7 +238,8 @@ pub fn movement_sentence(scene: &Scene, found: &FrameAnalysis, moved: &SupportMo
 
 /// Returns a sentence, without a full stop, about each movement of a support. With load cases, it ends with the force on the
 /// support in the other cases.
-pub fn movement_sentences(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
+pub fn movement_sentences(solved: SolvedFrame<'_>) -> Vec<String> {
+    let SolvedFrame { scene, found, .. } = solved;
     let of_cases = found.cases.iter().flat_map(|cases| cases.each.iter().enumerate().map(|own| (cases.governing, own)));
     let others: Vec<&CaseResult> =
         of_cases.filter(|(governing, (number, _))| governing != number).map(|(_, (_, case))| case).collect();
@@ -248,13 +252,14 @@ pub fn movement_sentences(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
             };
             Some(format!("; in case {}: {words}", line(&case.id)))
         });
-        movement_sentence(scene, found, moved) + &in_others.collect::<String>()
+        movement_sentence(solved, moved) + &in_others.collect::<String>()
     };
     found.movements.iter().map(sentence).collect()
 }
 
 /// States the first movement for a headline: how wide the widest joint opens, or that the structure does not follow.
-pub fn movement_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
+pub fn movement_headline(solved: SolvedFrame<'_>) -> Option<String> {
+    let SolvedFrame { scene, found, .. } = solved;
     let moved = found.movements.first()?;
     let first = movement(scene, moved);
     let more = match found.movements.len() {
@@ -318,7 +323,8 @@ pub fn vehicle_factor(scene: &Scene, influence: &Influence) -> String {
 
 /// States in a few words what a frame does under its vehicle, for the line of the verdict: `carries 2.31 × the vehicle`.
 /// `None` if the scene has no vehicle, if no position limits it, or if the frame falls without it.
-pub fn vehicle_headline(scene: &Scene, found: &FrameAnalysis) -> Option<String> {
+pub fn vehicle_headline(solved: SolvedFrame<'_>) -> Option<String> {
+    let SolvedFrame { scene, found, .. } = solved;
     let influence = found.vehicle.as_ref();
     let factor = influence.and_then(|own| own.positions[own.governing?].factor);
     match found.under_vehicle {
@@ -347,7 +353,7 @@ pub fn vehicle_sentence(scene: &Scene, influence: &Influence) -> String {
 /// ([`Analysis::thrust_states`]).
 pub fn thrust_range(analysis: &Analysis, frame: usize) -> Option<String> {
     let states = analysis.thrust_states(frame);
-    let force = |thrust: f64| quantity(thrust, analysis.scene.units.force());
+    let force = |thrust: f64| quantity(thrust, analysis.given().units.force());
     let (least, greatest) = (force(states.least?.thrust), states.greatest.map(|state| force(state.thrust)));
     Some(match greatest {
         Some(greatest) if greatest == least => format!("The horizontal thrust is {least} in all of them"),

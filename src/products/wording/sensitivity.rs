@@ -6,6 +6,7 @@ use super::number::{amount, counted, digits, round_below_in};
 use crate::geometry::{Point, Vector};
 use crate::mechanics::analysis::{
     CornerMoves, EndSensitivity, FALLS, FrameAnalysis, MarginKind, NoSensitivity, STANDS, Sensitivity, Slope,
+    SolvedFrame,
 };
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 
@@ -49,15 +50,14 @@ pub struct EffectiveChange {
 /// Returns the changes that enlarge the interval of a margin at one end, at most `most` of them, the most effective
 /// first. `is_high` is true if `end` is the upper end.
 pub fn most_effective(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
+    solved: SolvedFrame<'_>,
     end: &EndSensitivity,
     is_high: bool,
     most: usize,
 ) -> Vec<EffectiveChange> {
     let outward = if is_high { 1.0 } else { -1.0 };
-    let mut list = corners(scene, frame_analysis, end, outward);
-    list.extend(others(scene, frame_analysis, end, outward));
+    let mut list = corners(solved, end, outward);
+    list.extend(others(solved, end, outward));
     let effect = |change: &EffectiveChange| (change.after - end.value) * outward;
     list.retain(|change| effect(change) > EFFECT_TOL * end.value.abs());
     list.sort_by(|a, b| effect(b).total_cmp(&effect(a)));
@@ -67,7 +67,8 @@ pub fn most_effective(
 
 /// Returns the length, in metres, by which a described change moves a corner or a load. In the length unit of the
 /// scene, this length is 1, 2 or 5 times a power of ten.
-pub fn step_length(scene: &Scene, frame_analysis: &FrameAnalysis) -> f64 {
+pub fn step_length(solved: SolvedFrame<'_>) -> f64 {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     round_below_in(LENGTH_STEP_SHARE * frame_analysis.length * (1.0 + 1e-9), scene.units.length())
 }
 
@@ -83,13 +84,12 @@ pub fn length(scene: &Scene, metres: f64) -> String {
 
 /// Like [`most_effective`], but leaves out changes that do not alter the written value of the margin.
 pub fn visible(
-    scene: &Scene,
-    frame_analysis: &FrameAnalysis,
+    solved: SolvedFrame<'_>,
     (kind, end, is_high): (MarginKind, &EndSensitivity, bool),
     most: usize,
 ) -> Vec<EffectiveChange> {
     let before = value(kind, end.value, is_high);
-    let mut changes = most_effective(scene, frame_analysis, end, is_high, most);
+    let mut changes = most_effective(solved, end, is_high, most);
     changes.retain(|change| value(kind, change.after, is_high) != before);
     changes
 }
@@ -123,8 +123,9 @@ pub fn corner_moves(
 
 /// Returns the best move of each corner as a change that is described in words. Of corners that move together and lie
 /// at the same point, only the first is listed.
-fn corners(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, outward: f64) -> Vec<EffectiveChange> {
-    let step = step_length(scene, frame_analysis);
+fn corners(solved: SolvedFrame<'_>, end: &EndSensitivity, outward: f64) -> Vec<EffectiveChange> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
+    let step = step_length(solved);
     let mut list = Vec::new();
     for (number, best) in corner_moves(frame_analysis, end, outward) {
         let corner = &end.corners[number];
@@ -150,7 +151,8 @@ fn corners(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, 
 }
 
 /// Returns the changes of weights, friction coefficients and load positions that enlarge the interval.
-fn others(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, outward: f64) -> Vec<EffectiveChange> {
+fn others(solved: SolvedFrame<'_>, end: &EndSensitivity, outward: f64) -> Vec<EffectiveChange> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let mut list = Vec::new();
     let mut add = |target: Target, words: String, amount: f64, rate: f64| {
         list.push(EffectiveChange { target, words, amount, after: end.value + outward * rate * amount });
@@ -180,7 +182,7 @@ fn others(scene: &Scene, frame_analysis: &FrameAnalysis, end: &EndSensitivity, o
     for (target, words, amount, rate) in all.chain(whole) {
         add(target, words, amount, rate);
     }
-    let step = step_length(scene, frame_analysis);
+    let step = step_length(solved);
     for load in &end.loads {
         if let Some((direction, rate)) = best_direction(load.slopes, outward) {
             let words = format!(
@@ -247,7 +249,7 @@ pub fn end_name(kind: MarginKind, is_high: bool) -> &'static str {
 }
 
 /// Returns lines of text that describe, for each end of a margin, the most effective changes.
-pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis, sensitivity: &Sensitivity) -> Vec<String> {
+pub fn lines(solved: SolvedFrame<'_>, sensitivity: &Sensitivity) -> Vec<String> {
     let kind = sensitivity.kind;
     let mut lines = Vec::new();
     if let Some(reason) = sensitivity.reason() {
@@ -255,7 +257,7 @@ pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis, sensitivity: &Sensit
     }
     for (is_high, end) in sensitivity.ends() {
         let before = value(kind, end.value, is_high);
-        let changes = visible(scene, frame_analysis, (kind, end, is_high), 10);
+        let changes = visible(solved, (kind, end, is_high), 10);
         let name = name(kind, is_high);
         let stated = format!(
             "limit: {name} {before} ({} end of the interval in which the frame {STANDS})",

@@ -2,8 +2,7 @@
 
 use super::failure::{by_amount, missing_phrase, missing_sentence, shortened, unsupported_phrase};
 use super::number::{digits, listed, rough};
-use crate::mechanics::analysis::{FALLS, FrameAnalysis, Proof, STANDS, UNDECIDED, Verdict};
-use crate::mechanics::scene::Scene;
+use crate::mechanics::analysis::{FALLS, Proof, STANDS, SolvedFrame, UNDECIDED, Verdict};
 
 /// Largest number of failures that a sentence names. All further failures are only counted.
 const MAX_FAILURES_IN_SENTENCE: usize = 4;
@@ -32,7 +31,8 @@ pub fn tally(verdicts: &[Verdict]) -> String {
 
 /// Describes briefly why a frame does not stand, or that it stands only by wedging. Figures show this text below the
 /// verdict. The text is empty for all other frames.
-pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
+pub fn reason(solved: SolvedFrame<'_>) -> String {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     if frame_analysis.verdict == Verdict::Undecided && !frame_analysis.doubts.is_empty() {
         // The text must fit in two lines, so it contains only the first part of the doubt, which is the reason. The
         // report and the terminal also show the remedies.
@@ -40,7 +40,7 @@ pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         return doubt.split("; ").next().unwrap_or_default().to_owned();
     }
     let mut sentences = Vec::new();
-    sentences.extend(unsupported_phrase(scene, frame_analysis));
+    sentences.extend(unsupported_phrase(solved));
     if !frame_analysis.failures.is_empty() {
         let failures = by_amount(frame_analysis).into_iter();
         let parts = failures.map(|f| missing_phrase(scene, f)).collect();
@@ -54,9 +54,10 @@ pub fn reason(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
 
 /// Describes why a frame does not stand, or that it stands only by wedging, as clauses of a sentence. The text is
 /// empty for all other frames.
-pub fn reasons(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
+pub fn reasons(solved: SolvedFrame<'_>) -> String {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let mut parts: Vec<String> = Vec::new();
-    parts.extend(unsupported_phrase(scene, frame_analysis));
+    parts.extend(unsupported_phrase(solved));
     let failures = by_amount(frame_analysis).into_iter();
     let failures: Vec<String> = failures.map(|f| missing_sentence(scene, f)).collect();
     parts.extend(shortened(failures, MAX_FAILURES_IN_SENTENCE));
@@ -71,7 +72,8 @@ pub fn reasons(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
 }
 
 /// Writes a sentence with the verdict and its reasons, for readers who do not program.
-pub fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
+pub fn sentence(solved: SolvedFrame<'_>) -> String {
+    let SolvedFrame { found: frame_analysis, .. } = solved;
     match frame_analysis.verdict {
         Verdict::Stable if frame_analysis.only_by_wedging == Some(true) => {
             "It stands, but only by wedging: forces that hold every block at rest exist, but the loads alone do not \
@@ -84,7 +86,7 @@ pub fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
         Verdict::Stable => {
             format!("It {STANDS}: pressure and friction at the contacts, and the robots, can hold every block at rest.")
         }
-        Verdict::Unstable => match reasons(scene, frame_analysis) {
+        Verdict::Unstable => match reasons(solved) {
             reasons if reasons.is_empty() => {
                 format!("It {FALLS}: no forces that contacts and robots can give would hold every block at rest.")
             }

@@ -124,7 +124,7 @@ const CSV_HEADER: &str = "file,line,scene,frame,title,verdict,weight_n,largest_f
 
 /// Returns the rows of a scene, one for each frame.
 pub(super) fn csv_rows(origin: &Origin, analysis: &Analysis) -> String {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let frames = analysis.frames.iter().zip(&scene.frames).enumerate();
     let row = |(number, (answer, frame)): (usize, (&Arc<FrameAnalysis>, &crate::mechanics::scene::Frame))| {
         let [start, title] = [place(origin), cell(&frame.title)];

@@ -51,7 +51,7 @@ impl Analysis {
     /// no proof was found.
     pub fn capacity(&self, frame: usize, request: &CapacityRequest) -> Result<LoadCapacity, CapacityError> {
         if !self.given().has_conditions() {
-            return capacity_of(&self.scene, &Interfaces::new(&self.scene), frame, request);
+            return capacity_of(&self.given, &Interfaces::new(&self.given), frame, request);
         }
         let alone = self.given().alone(frame).ok_or(CapacityError::NoFrame)?;
         request.points(&alone, &alone.frames[0])?;
@@ -79,7 +79,8 @@ impl Analysis {
         let ends: Vec<Vector> = ends.map(|end| capacity.vertices[*end].force).collect();
         let middle = ends.iter().sum::<Vector>() / ends.len().max(1) as f64;
         let size = edge.limit.abs().max(middle.norm()).max(1e-3 * found.weight);
-        let scene = self.scene.with_force(capacity.block, capacity.at[0], middle + edge.normal * (1e-3 * size));
+        let scene =
+            self.at(frame).scene.with_force(capacity.block, capacity.at[0], middle + edge.normal * (1e-3 * size));
         self.elementary_mechanisms(&scene, found, &edge.mechanism)
     }
 }

@@ -61,7 +61,7 @@ impl Analysis {
         let found = match known.filter(|known| known.kind == kind) {
             Some(known) => known.clone(),
             None => {
-                let scene = self.scene.alone(frame).ok_or(NoSensitivity::NotApplicable)?;
+                let scene = self.given.alone(frame).ok_or(NoSensitivity::NotApplicable)?;
                 let analysis = Analysis::with(scene, &Options::default().sensitivity(kind));
                 let first = analysis.frames.first().and_then(|frame| frame.sensitivity.clone());
                 first.ok_or(NoSensitivity::NotApplicable)?

@@ -98,7 +98,7 @@ impl<'a> Plan<'a> {
 
 /// Returns the box around the blocks of all frames, in metres. Returns `None` if there are no blocks.
 fn structure(analysis: &Analysis) -> Option<Bounds> {
-    let scene = &analysis.scene;
+    let scene = analysis.given();
     let placed = scene.frames.iter().flat_map(|frame| &frame.placed);
     scene.bounds(placed)
 }
@@ -170,7 +170,7 @@ const UNBOUNDED_RATIO: f64 = 1e3;
 /// Returns the indices of the polygon's edges that get a small picture: the longest edges, in ascending order.
 /// Unbounded edges count as the longest. The list is empty if the analysis has several frames or many blocks.
 fn edges_with_pictures(analysis: &Analysis, capacity: &LoadCapacity) -> Vec<usize> {
-    let frames = analysis.scene.frames.iter();
+    let frames = analysis.given().frames.iter();
     let most = frames.map(|frame| frame.placed.len()).max().unwrap_or(0);
     if analysis.frames.len() > 1 || most > MAX_BLOCKS_WITH_PICTURES {
         return Vec::new();

@@ -8,8 +8,8 @@
 
 use super::path::{self, LineOfAction, TruePath, curve, moved_inside};
 use crate::geometry::{Point, Polygon, Vector, quarter_turn};
-use crate::mechanics::analysis::{ActingForce, Contact, Failure, ForceKind, FrameAnalysis, by_block};
-use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, Frame, Scene};
+use crate::mechanics::analysis::{ActingForce, Contact, Failure, ForceKind, SolvedFrame, by_block};
+use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, Scene};
 use crate::products::figure::bearing::pressing;
 
 /// If the component of a force along gravity is at most this fraction of the force, the component across gravity
@@ -60,16 +60,12 @@ pub(crate) struct Strand {
 
 /// Returns the strands of all blocks of a frame, in placing order. `metres_per_newton` is the scale of the widths. If a
 /// force is divided into several strands, their axes are offset so that the strands lie next to each other.
-pub(crate) fn strands(
-    scene: &Scene,
-    frame: &Frame,
-    frame_analysis: &FrameAnalysis,
-    metres_per_newton: f64,
-) -> Vec<Strand> {
-    let true_places = acting(scene, frame, frame_analysis, 0.0);
-    let acting = acting(scene, frame, frame_analysis, metres_per_newton);
+pub(crate) fn strands(solved: SolvedFrame<'_>, metres_per_newton: f64) -> Vec<Strand> {
+    let scene = solved.scene;
+    let true_places = acting(solved, 0.0);
+    let acting = acting(solved, metres_per_newton);
     let mut all = Vec::new();
-    for id in &frame.placed {
+    for id in &solved.frame().placed {
         let forces = &acting[id.0];
         let distribution = ForceDistribution {
             on: *id,
@@ -89,9 +85,11 @@ pub(crate) fn strands(
 
 /// Returns the forces on each block, indexed by block: weight, loads, forces of contacts and robots, and missing
 /// forces. The force of a joint acts where its strand has space in the joint.
-fn acting(scene: &Scene, frame: &Frame, found: &FrameAnalysis, metres_per_newton: f64) -> Vec<Vec<ActingForce>> {
+fn acting(solved: SolvedFrame<'_>, metres_per_newton: f64) -> Vec<Vec<ActingForce>> {
+    let SolvedFrame { scene, found, .. } = solved;
+    let frame = solved.frame();
     let at = |contact: &Contact| within_joint(contact, metres_per_newton * contact.amount());
-    let mut forces = pressing(scene, found, at);
+    let mut forces = pressing(solved, at);
     let missing: Vec<ActingForce> = found.failures.iter().flat_map(Failure::acting).collect();
     let largest = missing.iter().map(|acting| acting.force.norm()).fold(0.0, f64::max);
     forces.extend(missing.iter().filter(|acting| acting.force.norm() >= LEAST_MISSING * largest));

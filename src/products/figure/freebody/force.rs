@@ -93,7 +93,7 @@ pub(super) fn forces(
     options: &Options,
 ) -> Vec<Force> {
     let source = ForceSource {
-        scene: analysis.scene_of(frame),
+        scene: analysis.at(frame).scene,
         frame_analysis: &analysis.frames[frame],
         block,
         contacts,

@@ -29,11 +29,11 @@ pub(super) fn distinct(contact: &Contact) -> Vec<Point> {
 /// Returns the part of the scene that the figure shows, metres: the whole block, and the nearby parts of the bodies
 /// that touch it.
 pub(super) fn view(analysis: &Analysis, block: BlockId, contacts: &[&Contact]) -> Bounds {
-    let own = analysis.scene.blocks[block.0].body.polygon.bounds();
+    let own = analysis.given().blocks[block.0].body.polygon.bounds();
     let near = own.grown(0.42 * own.diagonal());
     let mut view = own.grown(0.06 * own.diagonal());
     for body in neighbours(contacts, block) {
-        let bounds = analysis.scene.body(body).polygon.bounds();
+        let bounds = analysis.given().body(body).polygon.bounds();
         let bounds = bounds.grown(0.03 * own.diagonal());
         view = view.union(Bounds { min: bounds.min.sup(&near.min), max: bounds.max.inf(&near.max) });
     }
@@ -204,12 +204,12 @@ pub(super) fn places(analysis: &Analysis, block: BlockId, contacts: &[&Contact])
     let is = |symbol: Symbol, words: String| {
         vec![Piece::Symbol(symbol), Piece::Words(format!("{NO_BREAK}={NO_BREAK}{words}"))]
     };
-    let unit = analysis.scene.units.length();
+    let unit = analysis.given().units.length();
     let at = |x: f64, y: f64| {
         let [x, y] = [x, y].map(|v| coordinate(unit.value_from_si(v)));
         format!("({x}; {y}){NO_BREAK}{}", unit.symbol())
     };
-    let c = analysis.scene.blocks[block.0].centroid;
+    let c = analysis.given().blocks[block.0].centroid;
     let mut places = vec![is(Symbol::new("c", Accent::None, ""), at(c.x, c.y))];
     for contact in contacts {
         let count = distinct(contact).len();

@@ -3,6 +3,7 @@
 use super::*;
 use crate::mechanics::analysis::Analysis;
 use crate::mechanics::scene::BodyId;
+use crate::mechanics::scene::Scene;
 use crate::products::figure::bearing::bearings;
 
 fn scene(text: &str) -> Scene {
@@ -11,7 +12,7 @@ fn scene(text: &str) -> Scene {
 
 fn thrust_segments(scene: &Scene) -> Vec<ThrustSegment> {
     let analysis = Analysis::new(scene);
-    segments(scene, &scene.frames[0], &analysis.frames[0])
+    segments(analysis.at(0))
 }
 
 #[test]
@@ -78,8 +79,8 @@ fn the_line_has_no_gap_at_any_joint_in_compression() {
         let scene = scene(text);
         let analysis = Analysis::new(&scene);
         let frame_analysis = &analysis.frames[0];
-        let segments = segments(&scene, &scene.frames[0], frame_analysis);
-        for (contact, bearing) in frame_analysis.contacts.iter().zip(bearings(&scene, frame_analysis)) {
+        let segments = segments(analysis.at(0));
+        for (contact, bearing) in frame_analysis.contacts.iter().zip(bearings(analysis.at(0))) {
             if bearing.is_none() {
                 continue;
             }

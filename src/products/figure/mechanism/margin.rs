@@ -2,8 +2,7 @@
 //! the values at both ends.
 
 use crate::geometry::{Vector, quarter_turn, sin_cos_degrees};
-use crate::mechanics::analysis::{End, FrameAnalysis, MarginKind};
-use crate::mechanics::scene::Scene;
+use crate::mechanics::analysis::{End, MarginKind, SolvedFrame};
 use crate::pictures::drawing::{Colour, Face, Outline, PagePoint, Path, text};
 use crate::products::figure::canvas::Canvas;
 use crate::products::figure::design::{Key, Layer, Mark, around, direction};
@@ -16,8 +15,9 @@ const GRAVITY_LENGTH: f64 = 10.0;
 const GRAVITY_DISTANCE: f64 = 3.0;
 
 /// Says with which values of the parameter the frame stands.
-pub(super) fn words(scene: &Scene, found: &FrameAnalysis, toward: MarginKind) -> String {
-    let margins = stated(scene, found);
+pub(super) fn words(solved: SolvedFrame<'_>, toward: MarginKind) -> String {
+    let SolvedFrame { found, .. } = solved;
+    let margins = stated(solved);
     match (margins.iter().find(|margin| margin.kind == toward), toward) {
         (Some(margin), _) => format!("{}: {}", margin.name, margin.stands()),
         (None, _) if found.margins.is_none() => "its margins were not computed".to_owned(),
@@ -98,7 +98,7 @@ pub(super) fn arrows(canvas: &mut Canvas<'_>, toward: MarginKind, edge: f64) {
 /// Returns the end of the interval whose sign is opposite to that of `edge`, in the unit of the parameter. Returns
 /// `None` if there is no such end or its value is not known.
 fn other_end(canvas: &Canvas<'_>, toward: MarginKind, edge: f64) -> Option<f64> {
-    let margins = stated(canvas.scene(), canvas.found());
+    let margins = stated(canvas.solved());
     let margin = margins.iter().find(|margin| margin.kind == toward)?;
     let ends = [margin.interval.low(), margin.interval.high()].into_iter().flatten();
     ends.filter_map(End::value).find(|other| *other != edge && other * edge <= 0.0)

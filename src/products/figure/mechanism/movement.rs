@@ -23,7 +23,7 @@ const MAX_AMOUNTS: usize = 12;
 
 /// States the movement, and with what force the structure pushes the support; or why the structure does not follow.
 pub(super) fn words(analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-    let scene = analysis.scene_of(frame);
+    let scene = analysis.at(frame).scene;
     let Some(moved) = chosen(analysis, frame, options) else {
         return vec![format!("there is no movement {}", options.movement.unwrap_or(1))];
     };
@@ -77,7 +77,7 @@ fn state<'a>(canvas: &Canvas<'a>) -> Option<(&'a Cracked, &'a Movement)> {
 /// last block.
 fn displace_blocks(canvas: &mut Canvas<'_>, cracked: &Cracked, movement: &Movement) {
     let Some(mut alone) = canvas.analysis.alone(canvas.number) else { return };
-    let mut scene = Scene::clone(&alone.scene);
+    let mut scene = Scene::clone(alone.at(0).scene);
     let (ground, support) = (BodyId::Ground(movement.ground), BlockId(scene.blocks.len()));
     let Some(first) = scene.blocks.first() else { return };
     let body = scene.ground[movement.ground].body.clone();
@@ -92,7 +92,7 @@ fn displace_blocks(canvas: &mut Canvas<'_>, cracked: &Cracked, movement: &Moveme
             *body = BodyId::Block(support);
         }
     }
-    alone.scene = scene.into();
+    let alone = Analysis::of_parts(scene, alone.frames);
     let motion = Motion { block: support, velocity, spin: movement.rotation / cracked.unit };
     let motions: Vec<Motion> = cracked.motions.iter().copied().chain([motion]).collect();
     let fall = Fall::with(&alone, 0, &motions);

@@ -1,7 +1,7 @@
 //! How a structure falls if its blocks are off their places: each block has an arrow in the direction of its error.
 
-use crate::mechanics::analysis::{FrameAnalysis, Verdict};
-use crate::mechanics::scene::{BodyId, Scene};
+use crate::mechanics::analysis::{SolvedFrame, Verdict};
+use crate::mechanics::scene::BodyId;
 use crate::pictures::drawing::{PagePoint, Path};
 use crate::products::figure::canvas::Canvas;
 use crate::products::figure::design::{Key, Layer, Mark, direction};
@@ -14,7 +14,8 @@ const ERROR: (f64, f64, f64) = (0.7, 1.5, 4.0);
 const NEGLIGIBLE: f64 = 0.02;
 
 /// States up to which error the structure stands, and the error with which it falls.
-pub(super) fn words(scene: &Scene, found: &FrameAnalysis) -> Vec<String> {
+pub(super) fn words(solved: SolvedFrame<'_>) -> Vec<String> {
+    let SolvedFrame { scene, found, .. } = solved;
     let Some(placement) = &found.placement else {
         return match found.verdict {
             Verdict::Stable => vec!["every block is in its place".to_owned()],

@@ -5,7 +5,7 @@
 //! progress 1 the governing one.
 
 use crate::geometry::quarter_turn;
-use crate::mechanics::analysis::{Analysis, Influence, VehiclePosition};
+use crate::mechanics::analysis::{Analysis, Influence, SolvedFrame, VehiclePosition};
 use crate::mechanics::scene::BodyId;
 use crate::pictures::drawing::{Drawing, Face, Outline, PagePoint, Path, text};
 use crate::products::figure::canvas::Canvas;
@@ -34,7 +34,7 @@ const GOVERNING_SECONDS: f64 = 2.0;
 
 /// States what the structure carries with the vehicle at the position that is shown.
 pub(super) fn words(analysis: &Analysis, frame: usize, options: &Options) -> Vec<String> {
-    let (scene, found) = analysis.at(frame);
+    let SolvedFrame { scene, found, .. } = analysis.at(frame);
     let Some(influence) = &found.vehicle else { return Vec::new() };
     let Some(own) = shown(influence, options.motion_progress) else {
         return vec![vehicle_factor(scene, influence)];

@@ -1,8 +1,8 @@
 //! [`Chain`]: a sequence of blocks in which forces pass from one joint to the next, such as the blocks of an arch.
 
 use crate::geometry::{Vector, quarter_turn};
-use crate::mechanics::analysis::FrameAnalysis;
-use crate::mechanics::scene::{BlockId, BodyId, Frame, Scene};
+use crate::mechanics::analysis::{FrameAnalysis, SolvedFrame};
+use crate::mechanics::scene::{BlockId, BodyId};
 
 use super::super::bearing::bearings;
 
@@ -42,8 +42,9 @@ impl Chain {
 
 /// Returns the chains of blocks that have a horizontal thrust, sorted by decreasing thrust. At most [`MAX_CHAINS`]
 /// chains are returned.
-pub(crate) fn chains(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysis) -> Vec<Chain> {
-    let bearings = bearings(scene, frame_analysis);
+pub(crate) fn chains(solved: SolvedFrame<'_>) -> Vec<Chain> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
+    let bearings = bearings(solved);
     let mut joints: Vec<Vec<usize>> = vec![Vec::new(); scene.blocks.len()];
     for (number, contact) in frame_analysis.contacts.iter().enumerate() {
         if bearings[number].is_some() {
@@ -52,7 +53,7 @@ pub(crate) fn chains(scene: &Scene, frame: &Frame, frame_analysis: &FrameAnalysi
     }
     let across = quarter_turn(scene.down());
     let mut chains: Vec<Chain> = Vec::new();
-    for block in frame.placed.iter().filter(|b| joints[b.0].len() == 2) {
+    for block in solved.frame().placed.iter().filter(|b| joints[b.0].len() == 2) {
         for first in joints[block.0].clone() {
             let before = frame_analysis.contacts[first].other(BodyId::Block(*block));
             if !matches!(before, BodyId::Block(b) if joints[b.0].len() == 2) {

@@ -10,7 +10,9 @@ use std::borrow::Cow;
 use super::chain::{Chain, chains};
 use super::{shown, states};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::mechanics::analysis::{ActingForce, Contact, Failure, ForceKind, FrameAnalysis, Verdict, acting_forces};
+use crate::mechanics::analysis::{
+    ActingForce, Contact, Failure, ForceKind, FrameAnalysis, SolvedFrame, Verdict, acting_forces,
+};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 use crate::pictures::drawing::{Colour, Outline, PagePoint, PageRect, Path};
 use crate::products::figure::canvas::Canvas;
@@ -74,14 +76,15 @@ struct Polygon {
 }
 
 impl Polygon {
-    fn new(scene: &Scene, number: usize, found: &FrameAnalysis) -> Polygon {
-        let frame = &scene.frames[number];
+    fn new(solved: SolvedFrame<'_>) -> Polygon {
+        let SolvedFrame { scene, found, .. } = solved;
+        let frame = solved.frame();
         let mut all = acting_forces(scene, frame, found, Contact::acting);
         all.retain(|side| !matches!(side.kind.partner(), Some(BodyId::Block(_))));
         let largest = all.iter().map(|side| side.force.norm()).fold(0.0, f64::max);
         all.retain(|side| side.force.norm() > NOISE * largest);
         let on_ground = |joint: usize| matches!(found.contacts[joint].interface.bodies[1], BodyId::Ground(_));
-        let chain = chains(scene, frame, found).into_iter().find(|chain| {
+        let chain = chains(solved).into_iter().find(|chain| {
             let ends = [chain.joints.first(), chain.joints.last()];
             chain.blocks.len() == frame.placed.len() && ends.into_iter().flatten().all(|joint| on_ground(*joint))
         });
@@ -215,7 +218,7 @@ fn found<'a>(canvas: &Canvas<'a>, number: usize) -> Cow<'a, FrameAnalysis> {
 pub(super) fn draw(canvas: &mut Canvas<'_>) -> Vec<String> {
     let number = canvas.number;
     let own = found(canvas, number);
-    let polygon = Polygon::new(canvas.scene(), number, &own);
+    let polygon = Polygon::new(canvas.solved().with(&own));
     if polygon.sides.len() < 2 {
         return vec!["no force polygon: there are no two forces".to_owned()];
     }
@@ -251,7 +254,7 @@ fn scale(canvas: &Canvas<'_>) -> Option<f64> {
     let wide = (1.0 - BESIDE) * panel.width;
     let high = panel.height.max(HEIGHT * panel.width);
     let bounds = (0..canvas.analysis.frames.len()).filter_map(|frame| {
-        let polygon = Polygon::new(canvas.analysis.scene_of(frame), frame, &found(canvas, frame));
+        let polygon = Polygon::new(canvas.analysis.at(frame).with(&found(canvas, frame)));
         Bounds::from_points(polygon.corners())
     });
     let fitting = bounds.map(|own| (wide / own.width()).min(high / own.height()));

@@ -3,7 +3,7 @@
 use super::unit::Units;
 use super::{Grid, TableCell};
 use crate::geometry::{Point, Vector, cross};
-use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{Analysis, Contact, FrameAnalysis, SolvedFrame, Verdict};
 use crate::mechanics::scene::{AppliedForce, BlockId, BodyId, ForceCause, Scene};
 use crate::text::line;
 
@@ -51,27 +51,27 @@ impl Force {
 /// Makes a table of the reactions: the forces of the ground and of robots on the blocks. `number` is the index of the
 /// frame.
 pub(super) fn support_forces(analysis: &Analysis, number: usize) -> Grid {
-    let (scene, found) = analysis.at(number);
-    let mut forces = reactions(scene, found);
-    forces.extend(robots(scene, found));
-    table("", &forces, Units::new(scene, found), false)
+    let solved = analysis.at(number);
+    let mut forces = reactions(solved);
+    forces.extend(robots(solved));
+    table("", &forces, Units::new(solved), false)
 }
 
 /// Makes a table of the external forces on the supported blocks of a frame: reactions, forces of robots, missing
 /// forces, weight and loads. The last row is their sum. Moments are about the origin. `number` is the index of the
 /// frame.
 pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
-    let (scene, found) = analysis.at(number);
+    let solved @ SolvedFrame { scene, found, .. } = analysis.at(number);
     let placed = scene.frames[number].placed.iter().copied();
     let supported: Vec<BlockId> = placed.filter(|block| !found.unsupported.contains(block)).collect();
-    let grounds = reactions(scene, found);
+    let grounds = reactions(solved);
     let together = |what: &str, forces: Vec<Force>| match forces.len() {
         0 | 1 => forces,
         _ => vec![Force::sum(what, &forces)],
     };
     let mut forces = together("reactions of the ground, together", grounds);
-    forces.extend(together("robots, together", robots(scene, found)));
-    forces.extend(missing(scene, found, &supported));
+    forces.extend(together("robots, together", robots(solved)));
+    forces.extend(missing(solved, &supported));
     let all = scene.applied_forces();
     let applied = supported.iter().flat_map(|id| &all[id.0]);
     let (weights, mut loads): (Vec<&AppliedForce>, Vec<&AppliedForce>) =
@@ -81,12 +81,13 @@ pub(super) fn whole(analysis: &Analysis, number: usize) -> Grid {
     forces.extend(total_weight(&weights));
     forces.extend(listed_loads(scene, &loads));
     let caption = "External forces on the supported blocks; moments about the origin";
-    table(caption, &forces, Units::new(scene, found), true)
+    table(caption, &forces, Units::new(solved), true)
 }
 
 /// Returns the forces of the ground on the blocks, one for each joint between the ground and a block. If there are more
 /// than [`MAX_REACTIONS`] such joints, returns one force for each part of the ground.
-fn reactions(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Force> {
+fn reactions(solved: SolvedFrame<'_>) -> Vec<Force> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let mut joints: Vec<(usize, Force)> = Vec::new();
     for contact in &frame_analysis.contacts {
         for acting in contact.acting() {
@@ -127,7 +128,8 @@ fn support(scene: &Scene, contact: &Contact, block: BlockId) -> String {
 }
 
 /// Returns the forces that robots exert on the blocks.
-fn robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Force> {
+fn robots(solved: SolvedFrame<'_>) -> Vec<Force> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let force = |r: &crate::mechanics::analysis::RobotForce| {
         let what = format!("robot {}", line(&scene.robots[r.robot.0].id));
         Force::new(what, r.at, r.force, r.torque)
@@ -137,7 +139,8 @@ fn robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<Force> {
 
 /// Returns the missing forces on `blocks`. Missing forces between two of these blocks cancel and are left out. If
 /// there are more than [`MAX_REACTIONS`] forces, returns only their sum.
-fn missing(scene: &Scene, frame_analysis: &FrameAnalysis, blocks: &[BlockId]) -> Vec<Force> {
+fn missing(solved: SolvedFrame<'_>, blocks: &[BlockId]) -> Vec<Force> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let mut forces = Vec::new();
     for failure in &frame_analysis.failures {
         let on = failure.acting().into_iter().filter(|acting| blocks.contains(&acting.on));

@@ -1,7 +1,6 @@
 //! [`MarginBar`]: a margin as a bar. It shows the values at which the structure stands, and the current value.
 
-use crate::mechanics::analysis::{End, FrameAnalysis, Interval, MarginKind};
-use crate::mechanics::scene::Scene;
+use crate::mechanics::analysis::{End, Interval, MarginKind, SolvedFrame};
 use crate::products::wording::margin::{Position, StatedMargin, confirmed, stated};
 use crate::products::wording::number::{three_down, three_up};
 use crate::products::wording::question;
@@ -47,21 +46,22 @@ pub struct MarginBar {
 }
 
 /// Returns the computed margins of a frame as bars, the headline margin first.
-pub fn margin_bars(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<MarginBar> {
-    stated(scene, frame_analysis).iter().map(MarginBar::new).collect()
+pub fn margin_bars(solved: SolvedFrame<'_>) -> Vec<MarginBar> {
+    stated(solved).iter().map(MarginBar::new).collect()
 }
 
 /// Returns the placement tolerance of a frame as a bar, if it was computed. The bar covers the errors for which the frame
 /// is proved to stand. Its end is confirmed if the frame falls with the same error, to three digits; the structure that
 /// is analysed has the error 0.
-pub(super) fn placement_bar(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<MarginBar> {
+pub(super) fn placement_bar(solved: SolvedFrame<'_>) -> Option<MarginBar> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let found = frame_analysis.placement.as_ref()?;
     let proved = question::placement_length(scene, found.proved, three_down);
     let confirmed = found.falls_at.is_some_and(|at| at <= found.proved * (1.0 + 1e-3));
     let farthest = found.falls_at.unwrap_or(found.proved);
     Some(MarginBar {
         name: "placement tolerance".to_owned(),
-        words: question::placement_sentence(scene, frame_analysis, found),
+        words: question::placement_sentence(solved, found),
         ends_and_present: [
             "0".to_owned(),
             if confirmed { proved } else { format!("at least {proved}") },

@@ -3,7 +3,7 @@
 use super::joints::{name, off_hinge};
 use super::unit::Units;
 use super::{Grid, TableCell};
-use crate::mechanics::analysis::{Analysis, FALLS, FrameAnalysis, MarginKind, Motion, Verdict};
+use crate::mechanics::analysis::{Analysis, FALLS, FrameAnalysis, MarginKind, Motion, SolvedFrame, Verdict};
 use crate::products::figure::{At, Fall, Joint, Kind};
 use crate::products::wording::failure::unsupported_phrase;
 use crate::products::wording::margin::{OtherFriction, governing};
@@ -28,8 +28,8 @@ pub(super) struct Collapse {
 impl Collapse {
     /// Returns the collapse of the frame with index `number`; `None` if it is not known.
     pub fn new(analysis: &Analysis, number: usize) -> Option<Collapse> {
-        let found = &analysis.frames[number];
-        let governing = governing(&analysis.scene, number, found);
+        let solved @ SolvedFrame { found, .. } = analysis.at(number);
+        let governing = governing(solved);
         let (mechanism, toward) = match found.verdict {
             Verdict::Undecided => return None,
             // The elementary mechanism is the one that the figure shows.
@@ -76,7 +76,7 @@ impl Collapse {
         let blocks = format!("{} {moves}{with}", counted(moving, "block"));
         match self.margin.as_str() {
             "" => {
-                let lost = unsupported_phrase(&analysis.scene, fall.found).map_or(String::new(), |w| format!("{w}; "));
+                let lost = unsupported_phrase(analysis.at(number)).map_or(String::new(), |w| format!("{w}; "));
                 line(&format!("It {FALLS}: {lost}{blocks}."))
             }
             margin => line(&format!("It {margin}; beyond, {blocks}.")),
@@ -90,7 +90,7 @@ impl Collapse {
 
     /// Makes the table of the joints of the collapse, the nearest to acting first, with a note on its numbers.
     pub fn table(&self, analysis: &Analysis, number: usize) -> (Grid, String) {
-        let (scene, found) = analysis.at(number);
+        let solved @ SolvedFrame { scene, found, .. } = analysis.at(number);
         let stands = found.verdict == Verdict::Stable;
         let fall = Fall::with_friction(analysis, number, &self.mechanism, self.friction);
         // How far each joint is from acting: 0 if it acts with the listed forces, 1 if it is as far as possible.
@@ -108,7 +108,7 @@ impl Collapse {
         let more = joints.len().saturating_sub(MAX_JOINTS);
         joints.truncate(MAX_JOINTS);
         let contacts = || joints.iter().map(|(joint, _)| &found.contacts[joint.contact]);
-        let units = Units::new(scene, found);
+        let units = Units::new(solved);
         let newtons = units.newtons(contacts().flat_map(|c| [c.normal_force(), c.friction_force]));
         let places = units.lengths(joints.iter().flat_map(|(joint, _)| [joint.at.x, joint.at.y]));
         let point = |joint: &Joint| joint.hinge.unwrap_or(joint.at);

@@ -45,7 +45,7 @@ pub fn compared(sides: [Side<'_>; 2], report_options: &ReportOptions) -> Entry {
     let mut row = Row::new(is.file.name, is.analysis);
     row.before = Some(was.analysis.verdict());
     let names = sides.map(|side| line(side.file.name));
-    let titles = sides.map(|side| match side.analysis.scene.title.trim() {
+    let titles = sides.map(|side| match side.analysis.given().title.trim() {
         "" => file_name(side.file.name),
         title => line(title),
     });
@@ -93,7 +93,7 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
     let mut sections = Vec::new();
     for ((number, a), b) in shown.iter().zip(before).zip(after) {
         let pair = &pairs[*number];
-        let mut section = sheet::empty(&is.analysis.scene, *number, pair.frames[1].verdict);
+        let mut section = sheet::empty(is.analysis.given(), *number, pair.frames[1].verdict);
         section.parts.push(SheetPart::Text(pair.sentence()));
         let is_first = *number == governing;
         if is_first {
@@ -103,7 +103,7 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
         if is_first && several {
             section.parts.push(SheetPart::Table(table(&pairs)));
         }
-        section.parts.push(SheetPart::Table(pair.forces.grid(&is.analysis.scene, pair.units)));
+        section.parts.push(SheetPart::Table(pair.forces.grid(is.analysis.given(), pair.units)));
         sections.push(section);
     }
     for number in counts[0].min(counts[1])..counts[0].max(counts[1]) {
@@ -115,7 +115,7 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
         let found = &side.analysis.frames[number];
         let drawings = figure::panels_of(side.analysis, Kind::Forces, &options, &[number]);
         let figures = drawings.into_iter().map(|drawing| plate(side, found, drawing)).collect();
-        let mut section = sheet::empty(&side.analysis.scene, number, found.verdict);
+        let mut section = sheet::empty(side.analysis.given(), number, found.verdict);
         section.parts = vec![SheetPart::Text(why.to_owned()), SheetPart::Figures(figures)];
         stated.push(why.to_owned());
         sections.push(section);
@@ -142,9 +142,9 @@ fn governing(pairs: &[Pair<'_>]) -> usize {
 fn table(pairs: &[Pair<'_>]) -> Grid {
     let mut grid = Grid::new("All steps", &["step", "first", "second", "what differs"]);
     for pair in pairs {
-        let title = pair.sides[1].analysis.scene.frames[pair.number].title.as_str();
+        let title = pair.sides[1].analysis.given().frames[pair.number].title.as_str();
         let verdict = |side: usize| {
-            let words = headline(&pair.sides[side].analysis.scene, pair.number, pair.frames[side]);
+            let words = headline(pair.sides[side].analysis.at(pair.number));
             let verdict = pair.frames[side].verdict.plain();
             if words.is_empty() { verdict.to_owned() } else { words }
         };
@@ -160,14 +160,14 @@ fn table(pairs: &[Pair<'_>]) -> Grid {
 
 /// Returns the units of both scenes, or `None` if the units of the two scenes differ.
 fn common_units(sides: [Side<'_>; 2]) -> Option<UnitsEntry> {
-    let [was, is] = sides.map(|side| side.analysis.scene.units);
+    let [was, is] = sides.map(|side| side.analysis.given().units);
     let sizes = [was, is].map(|units| [units.length().size, units.force().size]);
     (sizes[0] == sizes[1]).then_some(is)
 }
 
 /// Makes the figure of one scene. Its caption has the path of the scene file, its changed values, and the verdict.
 fn plate(side: Side<'_>, frame_analysis: &FrameAnalysis, drawing: Drawing) -> Figure {
-    let set = &side.analysis.scene.set;
+    let set = &side.analysis.given().set;
     let with = if set.is_empty() { String::new() } else { format!(" with {}", listed(set)) };
     let name = line(&format!("{}{with}", file_name(side.file.name)));
     Figure {
@@ -238,7 +238,7 @@ impl<'a> Pair<'a> {
         for (which, side) in [("First", 0), ("Second", 1)] {
             // That a structure stands is in the sentence above.
             if self.frames[side].verdict != Verdict::Stable {
-                let described = verdict::sentence(&self.sides[side].analysis.scene, self.frames[side]);
+                let described = verdict::sentence(self.sides[side].analysis.at(self.number));
                 parts.push(SheetPart::Note(format!("{which}: {}", line(&described))));
             }
         }
@@ -273,7 +273,7 @@ impl<'a> Pair<'a> {
         let mut plates = Vec::new();
         for (side, mut drawing) in drawings.into_iter().enumerate() {
             let rings = self.forces.changed().map(|f| f.contacts[side].resultant.at);
-            let (scene, rings) = (&self.sides[side].analysis.scene, rings.collect::<Vec<Point>>());
+            let (scene, rings) = (self.sides[side].analysis.given(), rings.collect::<Vec<Point>>());
             // If every block differs, an outline around each says nothing.
             let all = outlines[side].len() >= scene.frames[self.number].placed.len();
             mark(&mut drawing, scene, if all { &[] } else { &outlines[side] }, &rings, colour);
@@ -306,7 +306,7 @@ impl<'a> SharedForces<'a> {
     pub fn new(sides: [Side<'a>; 2], number: usize) -> SharedForces<'a> {
         let [was, is] = sides.map(|side| {
             let analysis = side.analysis;
-            (&*analysis.scene, &analysis.frames[number].contacts[..])
+            (&**analysis.given(), &analysis.frames[number].contacts[..])
         });
         let all = shared_forces([was, is]);
         let forces = was.1.iter().chain(is.1);
@@ -387,7 +387,7 @@ fn totals(then: &FrameAnalysis, now: &FrameAnalysis, units: UnitsEntry) -> Grid 
 /// frames.
 fn margins(sides: [Side<'_>; 2], number: usize) -> Grid {
     let mut grid = Grid::new("Margins", &["margin", "first", "second"]);
-    let [first, second] = sides.map(|side| bullet::margin_bars(&side.analysis.scene, &side.analysis.frames[number]));
+    let [first, second] = sides.map(|side| bullet::margin_bars(side.analysis.at(number)));
     for bullet in &first {
         let same = second.iter().find(|b| b.name == bullet.name);
         let after = same.map_or("–".to_owned(), |b| b.words.clone());

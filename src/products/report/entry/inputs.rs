@@ -4,7 +4,7 @@ use super::Grid;
 use super::unit::Units;
 use crate::geometry::{Vector, range_of};
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::mechanics::scene::{Axle, BlockId, Case, CornerContacts, Limits, Load, Scene};
+use crate::mechanics::scene::{Axle, BlockId, Case, CornerContacts, Limits, Load, Scene, Vehicle};
 use crate::products::wording::number::{amount, counted, digits, place, quantity, tenths};
 use crate::text::{first_of, line};
 
@@ -114,8 +114,9 @@ pub(super) fn loads(given: &Scene, scene: &Scene, number: usize, units: Units) -
         if load.entry >= axles_from {
             return format!("axle {} on {target}", load.entry - axles_from + 1);
         }
+        let fixed = fixed_part(scene, load).map_or(String::new(), |part| format!(" ({part})"));
         // The figures write this id at the load.
-        scene.load_id(load).map_or(target.clone(), |id| format!("{}: {target}", line(id)))
+        scene.load_id(load).map_or(target.clone(), |id| format!("{}: {target}", line(id))) + &fixed
     };
     for load in loads.iter().take(MAX_ROWS) {
         let mut cells = vec![
@@ -186,6 +187,25 @@ pub(super) fn robots(scene: &Scene, number: usize) -> Grid {
     grid
 }
 
+/// Lists the axles of a vehicle: `100 kN, 80 kN 3.2 m behind`.
+pub(super) fn axles(vehicle: &Vehicle, units: UnitsEntry) -> String {
+    let axle = |axle: &Axle| match axle.offset {
+        0.0 => quantity(axle.weight, units.force()),
+        offset => format!("{} {} behind", quantity(axle.weight, units.force()), amount(offset, units.length())),
+    };
+    first_of(vehicle.axles.iter().map(axle), MAX_ROWS)
+}
+
+/// Says which part of a load a load factor does not multiply; `None` if it multiplies the whole load.
+pub(super) fn fixed_part(scene: &Scene, load: &Load) -> Option<&'static str> {
+    match load.fixed_along {
+        _ if load.is_fixed => Some("fixed"),
+        Some(along) if along.dot(&scene.down()).abs() > 0.5 => Some("vertical part fixed"),
+        Some(_) => Some("horizontal part fixed"),
+        None => None,
+    }
+}
+
 fn limits(limits: Limits, units: UnitsEntry) -> String {
     let limit = |value: f64, words: String| if value.is_finite() { words } else { "none".to_owned() };
     let parts = [
@@ -212,12 +232,7 @@ pub(super) fn facts(scene: &Scene, number: usize) -> Grid {
     }
     add("thickness, into the page", amount(scene.thickness, scene.units.length()));
     if let Some(vehicle) = &scene.vehicle {
-        let [newtons, metres] = [scene.units.force(), scene.units.length()];
-        let axle = |axle: &Axle| match axle.offset {
-            0.0 => quantity(axle.weight, newtons),
-            offset => format!("{} {} behind", quantity(axle.weight, newtons), amount(offset, metres)),
-        };
-        add("axles of the vehicle", first_of(vehicle.axles.iter().map(axle), MAX_ROWS));
+        add("axles of the vehicle", axles(vehicle, scene.units));
     }
     let friction = range(scene.ground.iter().map(|g| g.body.friction));
     let ground = match scene.ground.len() {

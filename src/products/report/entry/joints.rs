@@ -4,7 +4,7 @@
 use super::unit::Units;
 use super::{Grid, HoverTarget, TableCell, hover};
 use crate::geometry::Point;
-use crate::mechanics::analysis::{Contact, FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{Contact, FrameAnalysis, SolvedFrame, Verdict};
 use crate::mechanics::scene::{BodyId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
 use crate::products::wording::failure;
@@ -38,7 +38,8 @@ pub(super) struct Ranking<'a> {
 }
 
 impl<'a> Ranking<'a> {
-    pub fn new(scene: &'a Scene, frame_analysis: &'a FrameAnalysis) -> Ranking<'a> {
+    pub fn new(solved: SolvedFrame<'a>) -> Ranking<'a> {
+        let SolvedFrame { scene, found: frame_analysis, .. } = solved;
         let largest = frame_analysis.largest_at_contacts();
         let mut used: Vec<UsedJoint> = Vec::new();
         for (number, contact) in frame_analysis.contacts.iter().enumerate() {
@@ -56,7 +57,7 @@ impl<'a> Ranking<'a> {
             let force = |u: &UsedJoint| frame_analysis.contacts[u.contact].amount();
             key(b).total_cmp(&key(a)).then(force(b).total_cmp(&force(a)))
         });
-        Ranking { scene, frame_analysis, used, units: Units::new(scene, frame_analysis) }
+        Ranking { scene, frame_analysis, used, units: Units::new(solved) }
     }
 
     /// Makes the table of all joints that carry force in the listed balance, with the highest utilisation first.
@@ -175,7 +176,8 @@ const MAX_BED_ANGLE: f64 = 45.0;
 /// Makes a table of the pressures at the base and bed joints, those at the ground first, and a note. The note says whether
 /// other balances of the loads may have other pressures. If there are more than [`MAX_BASES`] joints, the table is empty unless
 /// the report is `full`.
-pub(super) fn base_joints(scene: &Scene, frame_analysis: &FrameAnalysis, number: usize, full: bool) -> (Grid, String) {
+pub(super) fn base_joints(solved: SolvedFrame<'_>, full: bool) -> (Grid, String) {
+    let SolvedFrame { scene, number, found: frame_analysis, .. } = solved;
     let down = scene.down();
     let is_bed =
         |contact: &Contact| contact.interface.normal.dot(&down).abs() >= libm::cos(MAX_BED_ANGLE.to_radians()) - 1e-9;
@@ -186,7 +188,7 @@ pub(super) fn base_joints(scene: &Scene, frame_analysis: &FrameAnalysis, number:
     if beds.len() > MAX_BASES && !full {
         beds.clear();
     }
-    let units = Units::new(scene, frame_analysis);
+    let units = Units::new(solved);
     let contacts = || beds.iter().map(|(_, contact)| *contact);
     let newtons = units.newtons(contacts().map(Contact::normal_force));
     let offs = units.lengths(contacts().map(|contact| 0.5 * contact.interface.length()));
@@ -234,9 +236,10 @@ pub(super) fn base_joints(scene: &Scene, frame_analysis: &FrameAnalysis, number:
 
 /// Makes a table of the robots of a frame, with their forces and the largest fraction of a limit that each robot
 /// uses.
-pub(super) fn robots(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
+pub(super) fn robots(solved: SolvedFrame<'_>) -> Grid {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let forces = frame_analysis.robots.iter().flat_map(|r| [r.force.x, r.force.y]);
-    let units = Units::new(scene, frame_analysis);
+    let units = Units::new(solved);
     let newtons = units.newtons(forces);
     let torques = units.torques(frame_analysis.robots.iter().map(|r| r.torque));
     let mut grid = Grid::new(

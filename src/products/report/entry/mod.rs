@@ -89,7 +89,7 @@ pub struct Entry {
 impl Entry {
     /// Makes the content of a report from an analysis. `file` is the scene file of the analysis.
     pub fn new(file: File<'_>, analysis: &Analysis, options: &ReportOptions) -> Entry {
-        let scene = &analysis.scene;
+        let scene = analysis.given();
         let named = [("Project", &scene.project), ("Author", &scene.author), ("Date", &scene.date)];
         let details = named.into_iter().filter(|(_, words)| !words.trim().is_empty());
         Entry {
@@ -192,7 +192,7 @@ fn result(name: &str, analysis: &Analysis, timing: Timing) -> String {
 /// purpose of a command and the command.
 fn commands(name: &str, analysis: &Analysis, options: &ReportOptions) -> Vec<(String, String)> {
     let theme = options.theme_name.as_ref().map_or(String::new(), |theme| format!(" --theme {theme}"));
-    let set = analysis.scene.set.iter().map(|setting| format!(" --set {}", text::shell(setting)));
+    let set = analysis.given().set.iter().map(|setting| format!(" --set {}", text::shell(setting)));
     let file = text::shell(name) + &set.collect::<String>();
     let command = |kind: &str| format!("drystone render {file} -o figure.svg{kind}{theme}");
     let mut commands = vec![("the figure of forces".to_owned(), command(""))];

@@ -66,21 +66,21 @@ pub struct Thumbnail {
 impl Row {
     /// Makes the row of an analysis. `name` is the path as given by the user.
     pub fn new(name: &str, analysis: &Analysis) -> Row {
-        let scene = &analysis.scene;
+        let scene = analysis.given();
         let frames = &analysis.frames;
         let number = governing(analysis);
-        let bars = bullet::margin_bars(scene, &frames[number]);
+        let bars = bullet::margin_bars(analysis.at(number));
         let bar = bars.first();
         let standing = || frames.iter().filter(|f| f.verdict == Verdict::Stable);
         let mut placed: Vec<usize> = scene.frames.iter().flat_map(|f| f.placed.iter().map(|id| id.0)).collect();
         placed.sort_unstable();
         placed.dedup();
-        let fails = frames.iter().find(|f| f.verdict != Verdict::Stable);
-        let fails = fails.map_or(String::new(), |frame_analysis| {
-            let unsupported = failure::unsupported_phrase(scene, frame_analysis);
-            let largest = failure::by_amount(frame_analysis).into_iter().next();
+        let fails = analysis.each().find(|solved| solved.found.verdict != Verdict::Stable);
+        let fails = fails.map_or(String::new(), |solved| {
+            let unsupported = failure::unsupported_phrase(solved);
+            let largest = failure::by_amount(solved.found).into_iter().next();
             let largest = largest.map(|f| failure::missing_phrase(scene, f));
-            unsupported.or(largest).unwrap_or_else(|| frame_analysis.doubt())
+            unsupported.or(largest).unwrap_or_else(|| solved.found.doubt())
         });
         let title = match scene.title.trim() {
             "" => file_name(name),
@@ -95,7 +95,7 @@ impl Row {
             steps: worst_steps(frames),
             stand: (standing().count(), frames.len()),
             blocks: placed.len(),
-            headline: line(&headline(scene, number, &frames[number])),
+            headline: line(&headline(analysis.at(number))),
             reserve: bar.map_or(2.0, |bar| match analysis.verdict() {
                 Verdict::Unstable if !bar.is_load_factor => -1.0,
                 _ => bar.reserve,
@@ -203,7 +203,7 @@ pub(super) fn governing(analysis: &Analysis) -> usize {
     let first = of(Verdict::Unstable).or_else(|| of(Verdict::Undecided));
     first.unwrap_or_else(|| {
         let reserve = |number: &usize| {
-            let bars = bullet::margin_bars(&analysis.scene, &analysis.frames[*number]);
+            let bars = bullet::margin_bars(analysis.at(*number));
             bars.first().map_or(1.0, |bar| bar.reserve)
         };
         // If several steps have the same reserve, the last of them governs, because it usually has the most blocks.

@@ -6,7 +6,7 @@ use super::joints::{Ranking, base_joints, robots};
 use super::unit::Units;
 use super::{Badge, Figure, Grid, MarginBar, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
 use crate::mechanics::analysis::{
-    Analysis, CaseResult, EffectName, FrameAnalysis, MarginKind, MovementOutcome, SupportMovement, Verdict,
+    Analysis, CaseResult, EffectName, FrameAnalysis, MarginKind, MovementOutcome, SolvedFrame, SupportMovement, Verdict,
 };
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Drawing, Theme};
@@ -65,11 +65,11 @@ pub(super) fn sheet(
     steps: Option<Grid>,
     report_options: &ReportOptions,
 ) -> [Section; 2] {
-    let (scene, found) = analysis.at(number);
+    let solved @ SolvedFrame { scene, found, .. } = analysis.at(number);
     let mut first = empty(scene, number, found.verdict);
     let mut second = Section { letter: String::new(), title: String::new(), begins_page: true, ..first.clone() };
     let collapse = Collapse::new(analysis, number);
-    first.parts.push(SheetPart::Badge(Box::new(badge(scene, number, found))));
+    first.parts.push(SheetPart::Badge(Box::new(badge(solved))));
     let outline = drawn(analysis, number, report_options, &|options| {
         options.dimensions = true;
         (options.width, options.height) = (Some(WIDE), Some(OUTLINE_HEIGHT));
@@ -89,11 +89,11 @@ pub(super) fn sheet(
         subject: Some((Kind::Structure, number)),
     });
     first.parts.push(SheetPart::Figures(outline.into_iter().collect()));
-    first.parts.extend(given(analysis.given(), scene, found, number));
+    first.parts.extend(given(analysis.given(), solved));
     let reactions = balance::support_forces(analysis, number);
     first.parts.extend(titled("Reactions", reactions, other_balances(analysis, number)));
-    first.parts.extend(titled("Margins", margins(scene, found), Some(bullet::SHAPES_LEGEND.to_owned())));
-    first.parts.extend(titled("Load cases", cases(analysis.given(), scene, found), None));
+    first.parts.extend(titled("Margins", margins(solved), Some(bullet::SHAPES_LEGEND.to_owned())));
+    first.parts.extend(titled("Load cases", cases(analysis.given(), solved), None));
     let notes = found.margins.iter().flat_map(|margins| &margins.notes);
     first.parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
 
@@ -114,17 +114,17 @@ pub(super) fn sheet(
     // The table is for loaded walls and dams. In a frame that falls, the listed forces do not balance.
     let has_loads = !scene.loads_on(&scene.frames[number].placed).is_empty();
     if found.verdict == Verdict::Stable && (report_options.full || has_loads) {
-        let (beds, note) = base_joints(scene, found, number, report_options.full);
+        let (beds, note) = base_joints(solved, report_options.full);
         parts.extend(titled("Base and bed joints", beds, Some(note)));
     }
-    parts.push(SheetPart::Table(robots(scene, found)));
-    parts.extend(movements(scene, found));
-    parts.extend(titled("Blocks that may leave", removable(scene, found), None));
+    parts.push(SheetPart::Table(robots(solved)));
+    parts.extend(movements(solved));
+    parts.extend(titled("Blocks that may leave", removable(solved), None));
     parts.push(SheetPart::Heading("Balance of forces".to_owned()));
     parts.push(SheetPart::Table(balance::whole(analysis, number)));
     parts.push(SheetPart::Note(balance::check_words(found)));
-    let mut last = vec![assumptions(scene, found), verdict::proof_sentence(found.proof)];
-    last.extend(remarks(scene, found));
+    let mut last = vec![assumptions(solved), verdict::proof_sentence(found.proof)];
+    last.extend(remarks(solved));
     parts.push(SheetPart::Heading("Assumptions and proof".to_owned()));
     parts.push(SheetPart::Note(last.join(" ")));
     parts.extend(steps.into_iter().flat_map(|steps| titled("Steps", steps, None)));
@@ -154,10 +154,9 @@ fn is_wide(scene: &Scene, number: usize) -> bool {
 /// Describes steps that do not stand, in two columns. `numbers` has the indices of the steps. Each step has its first
 /// figure and the reason for its verdict.
 pub(super) fn others(analysis: &Analysis, numbers: &[usize], report_options: &ReportOptions) -> Vec<SheetPart> {
-    let scene = &analysis.scene;
     let column = |number: &usize| {
-        let frame_analysis = &analysis.frames[*number];
-        let own = empty(scene, *number, frame_analysis.verdict);
+        let solved = analysis.at(*number);
+        let own = empty(solved.scene, *number, solved.found.verdict);
         let collapse = Collapse::new(analysis, *number);
         let mut figures = figures(analysis, *number, report_options, collapse.as_ref());
         figures.truncate(1);
@@ -165,7 +164,7 @@ pub(super) fn others(analysis: &Analysis, numbers: &[usize], report_options: &Re
         vec![
             SheetPart::Heading(format!("({}) {}: {}", own.letter, own.title, own.verdict.plain())),
             SheetPart::Figures(figures),
-            SheetPart::Note(sentence(scene, frame_analysis)),
+            SheetPart::Note(sentence(solved)),
         ]
     };
     let columns: Vec<Vec<SheetPart>> = numbers.iter().map(column).collect();
@@ -173,17 +172,18 @@ pub(super) fn others(analysis: &Analysis, numbers: &[usize], report_options: &Re
 }
 
 /// Returns a sentence with the verdict and its reasons.
-fn sentence(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
-    line(&verdict::sentence(scene, frame_analysis))
+fn sentence(solved: SolvedFrame<'_>) -> String {
+    line(&verdict::sentence(solved))
 }
 
 /// Makes the verdict with the headline margin. The sentence with the reasons is left out if the frame stands without any.
-fn badge(scene: &Scene, number: usize, found: &FrameAnalysis) -> Badge {
+fn badge(solved: SolvedFrame<'_>) -> Badge {
+    let found = solved.found;
     let is_plain = found.verdict == Verdict::Stable && found.only_by_wedging != Some(true);
     Badge {
         verdict: found.verdict,
-        headline: line(&headline(scene, number, found)),
-        sentence: if is_plain { String::new() } else { sentence(scene, found) },
+        headline: line(&headline(solved)),
+        sentence: if is_plain { String::new() } else { sentence(solved) },
     }
 }
 
@@ -209,7 +209,7 @@ fn figures(
     report_options: &ReportOptions,
     collapse: Option<&Collapse>,
 ) -> Vec<Figure> {
-    let (scene, found) = analysis.at(number);
+    let solved @ SolvedFrame { scene, found, .. } = analysis.at(number);
     let forces = match found.verdict {
         Verdict::Stable => "The forces of one possible balance.",
         Verdict::Unstable if found.failures.is_empty() => "The forces.",
@@ -250,7 +250,7 @@ fn figures(
             kind
         };
         if let Some((drawing, dark)) = drawn(analysis, number, report_options, &change) {
-            let touches = if figures.is_empty() { Ranking::new(scene, found).touches() } else { Vec::new() };
+            let touches = if figures.is_empty() { Ranking::new(solved).touches() } else { Vec::new() };
             figures.push(Figure { caption: caption.to_owned(), drawing, dark, touches, subject: Some((kind, number)) });
         }
     }
@@ -269,8 +269,9 @@ fn titled(heading: &str, grid: Grid, note: Option<String>) -> Vec<SheetPart> {
 
 /// Makes two columns with the inputs of the frame with index `number`, and below them a long table of loads. The weights
 /// are those of the scene as it is `given`. The loads are those of the condition that governs, in which `scene` has them.
-fn given(given: &Scene, scene: &Scene, found: &FrameAnalysis, number: usize) -> Vec<SheetPart> {
-    let units = Units::new(scene, found);
+fn given(given: &Scene, solved: SolvedFrame<'_>) -> Vec<SheetPart> {
+    let SolvedFrame { scene, found, number, .. } = solved;
+    let units = Units::new(solved);
     let mut left = titled("Materials", inputs::materials(given, number, units), None);
     let loads = inputs::loads(given, scene, number, units);
     // In a narrow column, a row of loads has three lines.
@@ -293,10 +294,10 @@ fn given(given: &Scene, scene: &Scene, found: &FrameAnalysis, number: usize) -> 
 
 /// Makes the table of the margins and of the placement tolerance, each as a bar with numbers at both ends and the
 /// present value.
-fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
+fn margins(solved: SolvedFrame<'_>) -> Grid {
     let mut grid = Grid::new("", &["margin", "#from", "bar", "to", "#now"]);
-    let margins = bullet::margin_bars(scene, frame_analysis);
-    for bar in margins.into_iter().chain(bullet::placement_bar(scene, frame_analysis)) {
+    let margins = bullet::margin_bars(solved);
+    for bar in margins.into_iter().chain(bullet::placement_bar(solved)) {
         let [from, to, now] = bar.ends_and_present.clone().map(TableCell::from);
         grid.add("", [TableCell::from(bar.name.clone()), from, TableCell::bar(bar), to, now]);
     }
@@ -305,12 +306,15 @@ fn margins(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
 
 /// Makes the table of the load cases. Each row has the headline margin of its case as a bar, and the worst case is
 /// emphasised. If all rows show the same margin, their bars have one scale.
-fn cases(given: &Scene, scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
+fn cases(given: &Scene, solved: SolvedFrame<'_>) -> Grid {
+    let frame_analysis = solved.found;
     let mut grid = Grid::new("", &["load case", "consists of", "verdict", "margin", "#from", "bar", "to"]);
     let Some(cases) = &frame_analysis.cases else { return grid };
     let of = |case: &CaseResult| {
         let (margins, verdict) = (case.margins.clone(), case.verdict);
-        bullet::margin_bars(scene, &FrameAnalysis { margins, verdict, ..frame_analysis.clone() }).into_iter().next()
+        bullet::margin_bars(solved.with(&FrameAnalysis { margins, verdict, ..frame_analysis.clone() }))
+            .into_iter()
+            .next()
     };
     let bars: Vec<Option<MarginBar>> = cases.each.iter().map(of).collect();
     let is_alike = |name: &str| bars.iter().flatten().all(|bar| bar.name == name);
@@ -337,7 +341,8 @@ fn cases(given: &Scene, scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
 }
 
 /// Returns the table of the movements of supports, if there are any.
-fn movements(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
+fn movements(solved: SolvedFrame<'_>) -> Vec<SheetPart> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let mut grid = Grid::new("", &["if", "force on the support", "joints that open most"]);
     let cases = frame_analysis.cases.iter();
     let of_cases =
@@ -349,7 +354,7 @@ fn movements(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
     for (case, moved) in each.iter().flat_map(|(case, all)| all.iter().map(move |moved| (case, moved))) {
         let [force, joints] = match &moved.outcome {
             MovementOutcome::Follows(cracked) => {
-                [question::movement_force(scene, cracked), question::cracks(scene, frame_analysis, cracked)]
+                [question::movement_force(scene, cracked), question::cracks(solved, cracked)]
             }
             other => [String::new(), question::without_state(other).to_owned()],
         };
@@ -362,7 +367,8 @@ fn movements(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<SheetPart> {
 }
 
 /// Makes the table of the blocks that may leave, if they were asked for.
-fn removable(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
+fn removable(solved: SolvedFrame<'_>) -> Grid {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let mut grid = Grid::new("", &["block", "may leave", "#least force of a robot that holds it"]);
     for cells in question::removable_rows(scene, frame_analysis.removable.as_deref().unwrap_or_default()) {
         grid.add("", cells.map(|words| line(&words)));
@@ -370,7 +376,8 @@ fn removable(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
     grid
 }
 
-fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
+fn assumptions(solved: SolvedFrame<'_>) -> String {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let order = if scene.frames.len() == 1 { ", the order of construction" } else { "" };
     let least = match (frame_analysis.verdict, frame_analysis.least_force) {
         (Verdict::Stable, false) => " It was not proved that the balance shown has the least sum of forces.",
@@ -385,12 +392,12 @@ fn assumptions(scene: &Scene, frame_analysis: &FrameAnalysis) -> String {
 /// Returns the remarks at the end of the main section. They are the placement tolerance, the blocks that may leave, the
 /// result of the test for wedging, if the test was made and did not show that the structure stands without wedging, and
 /// the notices of the analysis.
-fn remarks(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
+fn remarks(solved: SolvedFrame<'_>) -> Vec<String> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let influence = frame_analysis.vehicle.as_ref();
     let influence = influence.map(|own| format!("Vehicle: {}.", line(&question::vehicle_sentence(scene, own))));
     let placement = frame_analysis.placement.as_ref();
-    let placement =
-        placement.map(|p| format!("Placement: {}.", line(&question::placement_sentence(scene, frame_analysis, p))));
+    let placement = placement.map(|p| format!("Placement: {}.", line(&question::placement_sentence(solved, p))));
     let rows = frame_analysis.removable.iter();
     let rows = rows.map(|rows| format!("Removable: {}.", line(&question::removable_phrases(scene, rows).join("; "))));
     let wedging = frame_analysis

@@ -5,8 +5,7 @@ use super::joints::Ranking;
 use super::row::{governing, thumbnail};
 use super::sheet::{empty, others, sheet};
 use super::{Chart, Grid, ReportOptions, Section, SheetPart, TableCell};
-use crate::mechanics::analysis::{Analysis, EffectName, EffectReport, FrameAnalysis, Stages, Verdict};
-use crate::mechanics::scene::Scene;
+use crate::mechanics::analysis::{Analysis, EffectName, EffectReport, FrameAnalysis, SolvedFrame, Stages, Verdict};
 use crate::pictures::chart::{self, Bars};
 use crate::products::result::Timing;
 use crate::products::wording::margin::headline;
@@ -30,7 +29,7 @@ pub(super) fn sections(analysis: &Analysis, report_options: &ReportOptions) -> V
     let falling = (0..count).filter(|n| analysis.frames[*n].verdict != Verdict::Stable && *n != governing);
     let falling: Vec<usize> = falling.take(if report_options.full { count } else { MAX_FALLING_STEPS }).collect();
     if !falling.is_empty() {
-        let mut section = empty(&analysis.scene, governing, analysis.verdict());
+        let mut section = empty(analysis.given(), governing, analysis.verdict());
         (section.letter, section.title) = (String::new(), "Other steps that do not stand".to_owned());
         section.parts = others(analysis, &falling, report_options);
         sections.push(section);
@@ -42,14 +41,13 @@ pub(super) fn sections(analysis: &Analysis, report_options: &ReportOptions) -> V
 }
 
 fn table(analysis: &Analysis) -> Grid {
-    let scene = &analysis.scene;
     let mut grid = Grid::new("", &["picture", "step", "verdict", "headline margin"]);
-    for (number, frame_analysis) in analysis.frames.iter().enumerate() {
-        let title = match scene.frames[number].title.as_str() {
+    for solved @ SolvedFrame { scene, number, found: frame_analysis, .. } in analysis.each() {
+        let title = match solved.frame().title.as_str() {
             "" => format!("Step {}", number + 1),
             title => line(title),
         };
-        let headline = match headline(scene, number, frame_analysis) {
+        let headline = match headline(solved) {
             words if words.is_empty() => "–".to_owned(),
             words => line(&words),
         };
@@ -72,12 +70,12 @@ const MIN_CHART_JOINTS: usize = 8;
 /// Makes the appendix of a frame: all joints that carry force, all failures, effects with their cost, the proof in
 /// numbers, and charts. `number` is the index of the frame.
 fn appendix(analysis: &Analysis, number: usize, report_options: &ReportOptions) -> Section {
-    let (scene, frame_analysis) = analysis.at(number);
+    let solved @ SolvedFrame { scene, found: frame_analysis, .. } = analysis.at(number);
     let mut section = empty(scene, number, frame_analysis.verdict);
     section.title = format!("Appendix {}", section.title).trim_end().to_owned();
     let grids = [
-        Ranking::new(scene, frame_analysis).table(),
-        failures(scene, frame_analysis),
+        Ranking::new(solved).table(),
+        failures(solved),
         cost(frame_analysis, report_options.timing),
         proved(frame_analysis),
     ];
@@ -87,9 +85,10 @@ fn appendix(analysis: &Analysis, number: usize, report_options: &ReportOptions) 
     section
 }
 
-fn failures(scene: &Scene, frame_analysis: &FrameAnalysis) -> Grid {
+fn failures(solved: SolvedFrame<'_>) -> Grid {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let mut grid = Grid::new("What fails", &["what", "at"]);
-    for what in failure::unsupported(scene, frame_analysis, usize::MAX) {
+    for what in failure::unsupported(solved, usize::MAX) {
         grid.add("", [line(&what), String::new()]);
     }
     for (number, failed) in frame_analysis.failures.iter().enumerate() {

@@ -1,9 +1,9 @@
 //! [`Units`]: the SI prefix for all forces and torques in the tables of a frame. [`Column`]: the unit of a table column,
 //! and how its numbers are written: with the digits that sentences and figures have.
 
-use crate::mechanics::analysis::FrameAnalysis;
+use crate::mechanics::analysis::SolvedFrame;
+use crate::mechanics::scene::Unit;
 use crate::mechanics::scene::format::UnitsEntry;
-use crate::mechanics::scene::{Scene, Unit};
 use crate::products::wording::failure;
 use crate::products::wording::number::{digits, shifted};
 
@@ -36,7 +36,8 @@ pub(super) struct Units {
 impl Units {
     /// Chooses the prefix for the largest force, missing force, weight or load: G, M, k, m, µ or no prefix. Above 1000 N
     /// the prefix is k, above 10⁸ N it is M, above 10¹¹ N it is G. Below 0.01 N it is m, below 10⁻⁵ N it is µ.
-    pub fn new(scene: &Scene, frame_analysis: &FrameAnalysis) -> Units {
+    pub fn new(solved: SolvedFrame<'_>) -> Units {
+        let SolvedFrame { scene, found: frame_analysis, .. } = solved;
         let missing = frame_analysis.failures.iter().map(failure::magnitude);
         let loads = scene.loads.iter().map(|l| l.force.norm());
         let weights = scene.blocks.iter().map(|b| b.weight);

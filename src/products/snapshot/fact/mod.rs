@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::geometry::{Point, Vector};
-use crate::mechanics::analysis::{Analysis, Contact, Failure, FrameAnalysis, Verdict};
+use crate::mechanics::analysis::{Analysis, Contact, Failure, SolvedFrame, Verdict};
 use crate::mechanics::scene::{BlockId, BodyId, RobotId, Scene};
 use crate::products::snapshot::layer::UnreadableReference;
 use crate::text;
@@ -40,7 +40,7 @@ const VERSION: u8 = 3;
 const UNITLESS_DECIMALS: i32 = 6;
 
 /// All quantities in the order of messages: the key in the file, the words in messages, and the unit.
-const QUANTITIES: [(&str, &str, &str); 19] = [
+const QUANTITIES: [(&str, &str, &str); 20] = [
     ("verdict", "", ""),
     ("gravity", "gravity", "m/s²"),
     ("kernel", "kernel", ""),
@@ -60,6 +60,7 @@ const QUANTITIES: [(&str, &str, &str); 19] = [
     ("friction_force", "T", "N"),
     ("normal_forces", "N at its ends", "N"),
     ("mu", "μ", ""),
+    ("factor", "factor", ""),
 ];
 
 /// The main inputs and the results of a scene.
@@ -105,7 +106,7 @@ impl Facts {
     /// assert!(facts(1.2).changes(&facts(1.2 + 1e-9)).is_empty());
     /// ```
     pub fn new(analysis: &Analysis, digits: usize) -> Facts {
-        let scene = &analysis.scene;
+        let scene = analysis.given();
         let weights = scene.blocks.iter().map(|b| b.weight.abs());
         let force = weights.chain(scene.loads.iter().map(|l| l.force.norm())).fold(0.0, f64::max);
         let corners = scene.blocks.iter().flat_map(|b| b.body.polygon.outline());
@@ -114,11 +115,10 @@ impl Facts {
         let decimals = largest.map(|(unit, largest)| (unit.to_owned(), decimals(digits, largest)));
         let mut facts =
             Facts { drystone_facts: VERSION, decimals: decimals.into_iter().collect(), sections: vec![causes(scene)] };
-        let frames = scene.frames.iter().zip(&analysis.frames).enumerate();
-        facts.sections.extend(frames.map(|(number, (step, found))| {
-            let verdict = json!({ "verdict": found.verdict.word() });
-            let heading = fact(&format!("frame {}", number + 1), vec![&step.title], verdict);
-            [vec![heading], frame(scene, step.placed.len(), found)].concat()
+        facts.sections.extend(analysis.each().map(|solved| {
+            let verdict = json!({ "verdict": solved.found.verdict.word() });
+            let heading = fact(&format!("frame {}", solved.number + 1), vec![&solved.frame().title], verdict);
+            [vec![heading], frame(solved)].concat()
         }));
         for fact in facts.sections.iter_mut().flatten() {
             for (key, value) in &mut fact.values {
@@ -250,11 +250,21 @@ fn causes(scene: &Scene) -> Vec<Fact> {
         }
         fact("load", vec![&scene.blocks[load.block.0].id], values)
     }));
+    for case in scene.cases() {
+        facts.push(fact("load case", vec![&case.id, "weights"], json!({ "factor": case.weights })));
+        facts.extend(case.loads.iter().enumerate().map(|(entry, factor)| {
+            let number = format!("load {}", entry + 1);
+            let load = scene.load_ids.get(entry).and_then(|id| id.as_deref()).unwrap_or(&number);
+            fact("load case", vec![&case.id, load], json!({ "factor": factor }))
+        }));
+    }
     facts
 }
 
-/// Returns the facts of a frame without its heading. `placed` is the number of its blocks.
-fn frame(scene: &Scene, placed: usize, found: &FrameAnalysis) -> Vec<Fact> {
+/// Returns the facts of a frame without its heading.
+fn frame(solved: SolvedFrame<'_>) -> Vec<Fact> {
+    let SolvedFrame { scene, found, .. } = solved;
+    let placed = solved.frame().placed.len();
     let is_proved = found.verdict != Verdict::Undecided;
     let mut sums = json!({ "blocks": placed as f64, "weight": found.weight });
     if is_proved {

@@ -3,7 +3,7 @@
 
 use super::{StatedMargin, confirmed, friction, stated};
 use crate::geometry::range_of;
-use crate::mechanics::analysis::{End, FrameAnalysis, Interval, MarginKind, Motion, Verdict};
+use crate::mechanics::analysis::{End, FrameAnalysis, Interval, MarginKind, Motion, SolvedFrame, Verdict};
 use crate::mechanics::scene::Scene;
 use crate::products::wording::number::{NO_BREAK, digits, three_down, three_up};
 use crate::products::wording::question;
@@ -47,19 +47,20 @@ pub struct Governing<'a> {
 
 /// Returns the headline margin of a frame in words, followed by its tilt and its friction if they say more. The list is
 /// empty if no margins were computed, or if the frame is undecided.
-pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> Governing<'a> {
+pub fn governing<'a>(solved: SolvedFrame<'a>) -> Governing<'a> {
+    let SolvedFrame { scene, number, found, .. } = solved;
     let placed = &scene.frames[number].placed;
     let loads = scene.loads_on(placed).len();
     let mut governing = match found.verdict {
         Verdict::Undecided => Governing::default(),
         Verdict::Unstable => Governing {
-            words: lack(scene, found).into_iter().chain(corners(found)).collect(),
+            words: lack(solved).into_iter().chain(corners(found)).collect(),
             mechanism: &found.mechanism,
             ..Governing::default()
         },
-        Verdict::Stable => reserves(scene, found, if loads == 1 { "load" } else { "loads" }),
+        Verdict::Stable => reserves(solved, if loads == 1 { "load" } else { "loads" }),
     };
-    if let Some(words) = question::vehicle_headline(scene, found) {
+    if let Some(words) = question::vehicle_headline(solved) {
         // What the vehicle does is what the scene asks. The other margins of a frame that stands do not contain it.
         governing.words = vec![words];
         if let Some(influence) = found.vehicle.as_ref().filter(|_| found.verdict == Verdict::Stable) {
@@ -72,7 +73,7 @@ pub fn governing<'a>(scene: &Scene, number: usize, found: &'a FrameAnalysis) -> 
             };
         }
     }
-    if let Some(words) = question::movement_headline(scene, found) {
+    if let Some(words) = question::movement_headline(solved) {
         governing.words.insert(0, words);
     }
     governing.words.extend(question::worst_case(found));
@@ -86,12 +87,13 @@ fn corners(found: &FrameAnalysis) -> Option<String> {
 
 /// Returns the same words as one text, for tables: `carries 2.81 × its load · falls at 19° of tilt`.
 #[cfg(any(feature = "report", feature = "cli"))]
-pub fn headline(scene: &Scene, number: usize, found: &FrameAnalysis) -> String {
-    governing(scene, number, found).words.join(" · ")
+pub fn headline(solved: SolvedFrame<'_>) -> String {
+    governing(solved).words.join(" · ")
 }
 
-fn reserves<'a>(scene: &Scene, found: &'a FrameAnalysis, load: &str) -> Governing<'a> {
-    let margins = stated(scene, found);
+fn reserves<'a>(solved: SolvedFrame<'a>, load: &str) -> Governing<'a> {
+    let SolvedFrame { scene, found, .. } = solved;
+    let margins = stated(solved);
     let has_factor = margins.iter().any(|margin| margin.kind == MarginKind::FrictionFactor);
     let has_sets = scene.factored_sets().next().is_some();
     let mut governing = Governing::default();
@@ -218,7 +220,8 @@ fn reserve<'a>(
 
 /// Describes what a falling frame lacks to stand: `carries 33 % of its load`. Returns `None` if the frame stands or is
 /// undecided, or if no computed margin shows what is lacking.
-pub(super) fn lack(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<String> {
+pub(super) fn lack(solved: SolvedFrame<'_>) -> Option<String> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     if frame_analysis.verdict != Verdict::Unstable {
         return None;
     }
@@ -229,13 +232,14 @@ pub(super) fn lack(scene: &Scene, frame_analysis: &FrameAnalysis) -> Option<Stri
         return loads;
     }
     loads
-        .or_else(|| factor_lack(scene, frame_analysis, margins.of(MarginKind::FrictionFactor)?))
+        .or_else(|| factor_lack(solved, margins.of(MarginKind::FrictionFactor)?))
         .or_else(|| friction_lack(frame_analysis, margins.of(MarginKind::Friction)?))
 }
 
 /// Describes the factor on the friction with which a frame of different coefficients would stand, or states that no factor
 /// would hold it. Returns `None` if all coefficients are equal, or if the factor is not known.
-fn factor_lack(scene: &Scene, frame_analysis: &FrameAnalysis, interval: &Interval) -> Option<String> {
+fn factor_lack(solved: SolvedFrame<'_>, interval: &Interval) -> Option<String> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let has_sets = scene.factored_sets().next().is_some();
     friction(frame_analysis).filter(|(least, most)| least < most || has_sets)?;
     match interval {

@@ -14,7 +14,8 @@ use super::number::{amount, digits, listed, three_down, three_up};
 use super::question;
 use crate::geometry::range_of;
 use crate::mechanics::analysis::{
-    Condition, End, Exclusion, FALLS, FrameAnalysis, Interval, Margin, MarginKind, Margins, STANDS, UNDECIDED, Verdict,
+    Condition, End, Exclusion, FALLS, FrameAnalysis, Interval, Margin, MarginKind, Margins, STANDS, SolvedFrame,
+    UNDECIDED, Verdict,
 };
 use crate::mechanics::scene::{Scene, Unit};
 use crate::text;
@@ -286,8 +287,9 @@ pub fn confirmed(end: &End) -> Option<f64> {
 
 /// Describes each margin of a frame in one line, the most important margin first. The notes on margins follow, one
 /// line each.
-pub fn lines(scene: &Scene, frame_analysis: &FrameAnalysis) -> Vec<String> {
-    let stated = stated(scene, frame_analysis);
+pub fn lines(solved: SolvedFrame<'_>) -> Vec<String> {
+    let SolvedFrame { found: frame_analysis, .. } = solved;
+    let stated = stated(solved);
     let line = |margin: &StatedMargin<'_>| format!("{}: {}", margin.name, margin.sentence());
     let mut lines: Vec<String> = stated.iter().map(line).collect();
     let notes = frame_analysis.margins.iter().flat_map(|margins| &margins.notes);
@@ -305,7 +307,8 @@ fn conflict(excluded: &[Exclusion]) -> Option<[f64; 2]> {
 }
 
 /// Returns all computed margins of a frame. The most important margin, which the headline describes, comes first.
-pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<StatedMargin<'a>> {
+pub fn stated<'a>(solved: SolvedFrame<'a>) -> Vec<StatedMargin<'a>> {
+    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
     let Some(margins) = &frame_analysis.margins else {
         return Vec::new();
     };
@@ -331,7 +334,7 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
             _ => position,
         };
         let governed = governed(frame_analysis, interval, *conditions);
-        let smooth = || smooth_joints(scene, frame_analysis);
+        let smooth = || smooth_joints(solved);
         let name = match kind {
             MarginKind::Overturning => format!("{}{}", kind.about().name, smooth()),
             _ => kind.about().name.to_owned(),
@@ -362,7 +365,8 @@ pub fn stated<'a>(scene: &Scene, frame_analysis: &'a FrameAnalysis) -> Vec<State
 }
 
 /// Names the smooth joints, because they cannot slide either: `, smooth 1 / wall too`. Empty without smooth joints.
-fn smooth_joints(scene: &Scene, found: &FrameAnalysis) -> String {
+fn smooth_joints(solved: SolvedFrame<'_>) -> String {
+    let SolvedFrame { scene, found, .. } = solved;
     let smooth = found.contacts.iter().filter(|contact| contact.interface.friction == 0.0);
     let names = smooth.map(|contact| contact.interface.bodies.map(|body| text::line(scene.name(body))).join(" / "));
     let names = shortened(names.collect(), MAX_SMOOTH_NAMED);

@@ -8,7 +8,7 @@ use super::Side;
 use crate::geometry::Point;
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{Block, CornerContacts, Limits, Scene, Unit};
-use crate::products::report::entry::Grid;
+use crate::products::report::entry::{Grid, inputs};
 use crate::products::wording::failure::shortened;
 use crate::products::wording::number::{amount, digits, listed, place};
 use crate::text::line;
@@ -37,7 +37,7 @@ impl Shapes {
     /// the descriptions of changes.
     pub fn new(sides: [Side<'_>; 2], number: Option<usize>, units: UnitsEntry) -> Shapes {
         let blocks = |side: Side<'_>| -> Vec<(String, usize)> {
-            let scene = &side.analysis.scene;
+            let scene = side.analysis.given();
             let placed = |number: usize| scene.frames[number].placed.iter().map(|id| id.0).collect();
             let mut placed: Vec<usize> = number.map_or_else(|| (0..scene.blocks.len()).collect(), placed);
             placed.sort_unstable();
@@ -48,7 +48,7 @@ impl Shapes {
         let [then, now] = sides.map(blocks);
         let [before, after] = [&then, &now]
             .map(|list| -> BTreeMap<&str, usize> { list.iter().map(|(id, i)| (id.as_str(), *i)).collect() });
-        let [was, is] = sides.map(|side| &side.analysis.scene);
+        let [was, is] = sides.map(|side| side.analysis.given());
         let max_coordinate = max_coordinate(is).max(max_coordinate(was));
         let mut shapes = Shapes::default();
         for (id, old) in &then {
@@ -161,7 +161,7 @@ impl Settings {
     /// Compares the inputs of the two frames with index `number`. `units` are the units of the values in words. They
     /// are the same for both sides, because the words are compared.
     pub fn new(sides: [Side<'_>; 2], number: usize, units: UnitsEntry) -> Settings {
-        let [then, now] = sides.map(|side| given(&side.analysis.scene, number, units));
+        let [then, now] = sides.map(|side| given(side.analysis.given(), number, units));
         let mut settings = Settings { lines: Vec::new(), blocks: [Vec::new(), Vec::new()] };
         let words = |list: &FrameInputs, name: &str| {
             let found = list.iter().find(|g| g.0 == name);
@@ -253,13 +253,30 @@ fn given(scene: &Scene, number: usize, units: UnitsEntry) -> FrameInputs {
                     0.0 => String::new(),
                     torque => format!(", torque {}", amount(torque, units.torque())),
                 };
-                format!("{force} at {}{torque}", place(load.at, units))
+                let fixed = inputs::fixed_part(scene, load).map_or(String::new(), |part| format!(", {part}"));
+                format!("{force} at {}{torque}{fixed}", place(load.at, units))
             })
             .collect();
         if !words.is_empty() {
             let name = format!("load on {}", line(&scene.blocks[block.0].id));
             given.push((name, listed(&words), Some(block.0)));
         }
+    }
+    for case in scene.cases() {
+        given.push((format!("load case {}", line(&case.id)), inputs::factors(scene, case), None));
+    }
+    if let Some(vehicle) = &scene.vehicle {
+        let ways = if vehicle.both_ways { ", both ways" } else { "" };
+        given.push(("axles of the vehicle".into(), inputs::axles(vehicle, units) + ways, None));
+    }
+    for movement in &scene.movements {
+        let [x, y] = [movement.translation.x, movement.translation.y].map(|way| units.length().value_from_si(way));
+        let turn = match movement.rotation {
+            0.0 => String::new(),
+            turn => format!(", {}°", digits(turn.to_degrees())),
+        };
+        let way = vector(x, y, &units.length().symbol()) + &turn;
+        given.push((format!("movement of ground {}", movement.ground + 1), way, None));
     }
     for hold in &frame.holds {
         let robot = &scene.robots[hold.robot.0];
