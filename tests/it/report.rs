@@ -298,6 +298,34 @@ fn interactive_figures_need_the_script_of_the_same_version_in_an_html_report() {
 }
 
 #[test]
+fn a_comparison_names_cases_axles_movements_and_fixed_parts_that_changed() {
+    let scene = |factor: f64, fixed: &str, axle: f64, way: f64| {
+        format!(
+            r#"{{ "drystone": 1, "friction": 0.5,
+            "ground": [{{ "id": "floor", "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }}],
+            "blocks": [{{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 6 }}],
+            "loads": [{{ "id": "push", "block": "a", "force": [1, -1], "at": [1, 1]{fixed} }}],
+            "cases": [{{ "id": "calm", "loads": {{}} }}, {{ "id": "storm", "loads": {{ "push": {factor} }} }}],
+            "vehicle": {{ "axles": [{{ "weight": {axle} }}] }},
+            "movements": [{{ "ground": "floor", "translation": [{way}, 0] }}] }}"#
+        )
+    };
+    let before = scene(1.5, "", 1.0, 0.01);
+    let changes = [
+        (scene(1.75, "", 1.0, 0.01), "load case storm | 1.5 × push, weights | 1.75 × push, weights"),
+        (scene(1.5, r#", "fixed": "vertical""#, 1.0, 0.01), "(1, -1) N at (1, 1) m, vertical part fixed"),
+        (scene(1.5, "", 2.0, 0.01), "axles of the vehicle | 1 N, both ways | 2 N, both ways"),
+        (scene(1.5, "", 1.0, 0.02), "movement of ground 1 | (0.01, 0) m | (0.02, 0) m"),
+    ];
+    for (after, words) in changes {
+        let folder = Folder::new(&[("a.json", before.as_str()), ("b.json", after.as_str())]);
+        folder.done("report --compare a.json b.json -o r.md");
+        let page = folder.text("r.md");
+        assert!(page.contains(words), "{words}:\n{page}");
+    }
+}
+
+#[test]
 fn a_comparison_states_what_changed_and_marks_it_in_both_figures() {
     let heavier = STANDS.replace("\"weight\": 11", "\"weight\": 22");
     let shifted = heavier.replace("[5, 0], [6, 0], [6, 3], [5, 3]", "[4, 0], [5, 0], [5, 3], [4, 3]");

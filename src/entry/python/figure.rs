@@ -1,7 +1,6 @@
 //! Draws pictures and writes reports of an analysis for Python.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use pyo3::prelude::*;
 
