@@ -2,6 +2,7 @@
 
 use drystone::analysis::{MarginKind, MarginKinds, Options, Verdict};
 use drystone::scene::format::{BlockEntry, BlockSide, CaseEntry, DepthEntry, LoadEntry, PressureEntry, SceneFile};
+use drystone::snapshot::fact::{DIGITS, Facts};
 use drystone::{Analysis, Scene, figure, figure::Kind, output};
 use serde_json::{Value, json};
 
@@ -209,7 +210,7 @@ fn each_step_has_the_scene_of_its_own_worst_case() {
     file["cases"] =
         json!([{ "id": "to the right", "loads": { "right": 1 } }, { "id": "to the left", "loads": { "left": 2 } }]);
     file["steps"] = json!([{ "place": ["dam"] }, { "place": ["top"] }]);
-    let analysis = Analysis::with(scene(file), &Options::default().margins(true));
+    let analysis = Analysis::with(scene(file.clone()), &Options::default().margins(true));
     let worst: Vec<&str> = analysis
         .frames
         .iter()
@@ -225,7 +226,24 @@ fn each_step_has_the_scene_of_its_own_worst_case() {
         let [own, other] = if number == 0 { ["right: 2 kN", "left: 10 kN"] } else { ["left: 10 kN", "right: 2 kN"] };
         let words = svg.replace('\u{a0}', " ");
         assert!(words.contains(&format!(">{own}<")) && !words.contains(&format!(">{other}<")), "{number}: {svg}");
+        // Asked later or from the beginning, the sensitivity is that of all cases.
+        let kind = MarginKind::LoadFactor;
+        let asked = Analysis::with(analysis.given().clone(), &Options::default().sensitivity(kind));
+        assert_eq!(analysis.sensitivity(number, kind).ok(), asked.frames[number].sensitivity, "{number}");
+        assert!(asked.frames[number].sensitivity.is_some());
     }
+    let written: Vec<f64> = analysis.given().loads().iter().map(|load| load.force.x).collect();
+    assert_eq!(written, [2e3, -5e3]);
+    // A snapshot states the loads as written, and beside them the factors, which differ in another scene.
+    let mut facts = |factor: f64| {
+        file["cases"][1]["loads"]["left"] = factor.into();
+        Facts::new(&Analysis::new(scene(file.clone())), DIGITS)
+    };
+    let changes = facts(2.0).changes(&facts(2.5)).join("\n");
+    assert!(
+        changes.contains("load case to the left, left: factor 2 → 2.5") && !changes.contains("load dam"),
+        "{changes}"
+    );
 }
 
 #[test]

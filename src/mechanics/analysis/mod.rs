@@ -306,13 +306,13 @@ impl Analysis {
         let notes = gaps_closed::notes(&once, &interfaces);
         let frames = repeat::with_repeats(frames, &source);
         if governing.iter().all(Option::is_none) {
-            return Analysis::of_conditions(scene, frames, Vec::new(), notes);
+            return Analysis { given: scene, of_frames: Vec::new(), frames, notes };
         }
         let own = (0..source.len()).filter(|number| source[*number] == *number);
         let scenes: BTreeMap<usize, Arc<Scene>> =
             own.zip(governing).map(|(number, under)| (number, under.unwrap_or_else(|| scene.clone()))).collect();
-        let scenes = source.iter().map(|source| scenes[source].clone()).collect();
-        Analysis::of_conditions(scene, frames, scenes, notes)
+        let of_frames = source.iter().map(|source| scenes[source].clone()).collect();
+        Analysis { given: scene, of_frames, frames, notes }
     }
 
     /// Returns the worst verdict of all frames; stable if there are no frames.

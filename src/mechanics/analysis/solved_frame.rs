@@ -1,21 +1,21 @@
-//! [`SolvedFrame`]: a frame with its results and the scene to which they belong.
+//! [`SolvedFrame`]: the results of a frame, and the scene to which these results belong.
 //!
-//! With load cases or a vehicle, the forces of a frame balance other weights and loads than those of the scene file, and
-//! each frame may have its own. So [`Analysis`] gives a frame only together with its scene.
+//! With load cases, the forces of a frame balance the weights and loads of its worst case, and each frame may have another
+//! worst case. Code that needs results and their scene gets both together, from [`Analysis::at`] or [`Analysis::each`].
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::condition::Condition;
 use super::{Analysis, FrameAnalysis, position};
-use crate::mechanics::scene::{Frame, Note, Scene};
+use crate::mechanics::scene::{Frame, Scene};
 
 /// A frame of an analysis, with its results and the scene to which they belong.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct SolvedFrame<'a> {
-    /// The scene with the weights and loads to which the results of the frame belong: with load cases, those of the worst
-    /// case of this frame. If the frame falls under the vehicle, the loads contain the axles.
+    /// The scene with the weights and loads to which the results of the frame belong. With load cases, these are the weights
+    /// and loads in the worst case of this frame. If the frame falls under the vehicle, its axles are among the loads.
     pub scene: &'a Scene,
     /// The index of the frame, from 0.
     pub number: usize,
@@ -29,8 +29,8 @@ impl<'a> SolvedFrame<'a> {
         &self.scene.frames[self.number]
     }
 
-    /// Returns the frame with other forces, which balance the same weights and loads.
-    pub(crate) fn with(self, found: &'a FrameAnalysis) -> SolvedFrame<'a> {
+    /// Returns the frame with other results for the same weights and loads.
+    pub(crate) fn with_results(self, found: &'a FrameAnalysis) -> SolvedFrame<'a> {
         SolvedFrame { found, ..self }
     }
 }
@@ -39,17 +39,6 @@ impl Analysis {
     /// Returns an analysis without notes, of a scene whose frames have these results.
     pub(crate) fn of_parts(scene: impl Into<Arc<Scene>>, frames: Vec<Arc<FrameAnalysis>>) -> Analysis {
         Analysis { given: scene.into(), of_frames: Vec::new(), frames, notes: Vec::new() }
-    }
-
-    /// Returns an analysis of a scene as it was `given`, the results of its frames, and for each frame the scene with the
-    /// weights and loads to which these results belong.
-    pub(super) fn of_conditions(
-        given: Arc<Scene>,
-        frames: Vec<Arc<FrameAnalysis>>,
-        of_frames: Vec<Arc<Scene>>,
-        notes: Vec<Note>,
-    ) -> Analysis {
-        Analysis { given, of_frames, frames, notes }
     }
 
     /// Returns the scene as its author wrote it, with its load cases and its vehicle. Results of a frame may belong to other

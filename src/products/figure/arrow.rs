@@ -130,8 +130,8 @@ pub fn arrows(analysis: &Analysis, frame: usize, options: &Options) -> Vec<Force
 /// length. With [`Normalisation::Source`], this is the largest single unknown of the linear program, weight or load. In
 /// a zoomed figure, only forces in the zoomed view count.
 pub(crate) fn largest(analysis: &Analysis, frame: usize, options: &Options) -> f64 {
-    let scene = analysis.at(frame).scene;
-    let (frame, frame_analysis) = (&scene.frames[frame], &analysis.frames[frame]);
+    let solved @ SolvedFrame { scene, found: frame_analysis, .. } = analysis.at(frame);
+    let frame = solved.frame();
     let edge = unit(scene, options.zoom);
     let near = options.zoom.map(|block| zoomed_view(scene, block));
     let shown = |at: Point| near.is_none_or(|near| near.contains(at));

@@ -169,7 +169,7 @@ impl<'a> Drawing<'a> {
     /// Draws each joint as a line whose colour shows the used share of the available friction, with a dot where the
     /// resultant acts. The line is as long as the part in which the resultant may act.
     fn joints(&self, canvas: &mut Canvas<'_>) {
-        let bearings = bearings(canvas.solved().with(&self.found));
+        let bearings = bearings(canvas.solved().with_results(&self.found));
         let all = self.found.contacts.iter().zip(bearings);
         // The dots of corner contacts come last, because the line of a joint could cover them.
         let (corners, edges): (Vec<_>, Vec<_>) =

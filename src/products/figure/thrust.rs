@@ -69,7 +69,7 @@ impl Figure for ThrustLine {
     fn draw(&self, canvas: &mut Canvas<'_>) {
         let states = states(canvas, canvas.number);
         let found = shown(states, canvas.found());
-        let segments = segments(canvas.solved().with(&found));
+        let segments = segments(canvas.solved().with_results(&found));
         // The ground ends beside the structure, not below the force polygon.
         let all = canvas.structure;
         if canvas.window.is_none() {
@@ -154,7 +154,7 @@ fn thrusts(canvas: &Canvas<'_>, states: &ThrustStates) -> Vec<String> {
         return Vec::new();
     }
     let amount = |newtons: f64| canvas.newtons(newtons);
-    let crown = |state: &ThrustState| Some(chains(canvas.solved().with(&state.frame)).first()?.crown_thrust);
+    let crown = |state: &ThrustState| Some(chains(canvas.solved().with_results(&state.frame)).first()?.crown_thrust);
     let stated = |of: &dyn Fn(&ThrustState) -> Option<f64>| {
         let shown = amount(of(states.central.as_ref()?)?);
         let range = [&states.least, &states.greatest].map(|state| state.as_ref().and_then(of).map(amount));
@@ -312,7 +312,7 @@ fn title(canvas: &Canvas<'_>, segment: &ThrustSegment) -> String {
 /// Draws a dot at the point where the resultant of each interface acts, and a ring where it lies outside the stone.
 fn dots(canvas: &mut Canvas<'_>, shown: &FrameAnalysis, keys: &Keys) {
     let (scene, theme) = (canvas.scene(), canvas.theme());
-    for (contact, _) in pressed(canvas.solved().with(shown)) {
+    for (contact, _) in pressed(canvas.solved().with_results(shown)) {
         let (at, pair) = (canvas.place(contact.resultant.at), pair(scene, contact.interface.bodies));
         let mark = if let Some(end) = left_at(contact) {
             let out = Outline::line([canvas.place(end), at]);
@@ -359,7 +359,7 @@ fn limits(canvas: &mut Canvas<'_>, states: &ThrustStates) {
         let Some(state) = state else { continue };
         let ink = theme.motion.mixed(theme.ink, 0.45);
         let stroke = canvas.dashes(ink, LIMIT_WIDTH, dashes);
-        let pieces = segments(canvas.solved().with(&state.frame)).into_iter();
+        let pieces = segments(canvas.solved().with_results(&state.frame)).into_iter();
         let outline = Outline::lines(pieces.map(|piece| [piece.from, piece.to].map(|p| canvas.place(p))));
         let key = Key::line(rank, name.to_lowercase(), canvas.mm(KEY_LENGTH), stroke.clone());
         let thrust = canvas.newtons(state.thrust);

@@ -293,8 +293,8 @@ pub(crate) fn map(
     plane.finish(&keys, format!("{}: {} and {}", question.name, x.name, y.name), question.map_lines(map).join(" "))
 }
 
-/// Draws the isolines of a number of the result. Each has its value at its middle, or at the nearest place where the value
-/// meets no other text; an isoline without such a place has none. `taken` lists the places of texts.
+/// Draws the isolines of a number of the result, and writes the value of each isoline on it: at its middle, or at the nearest
+/// place where no other text is. If there is no such place, the value is left out. `taken` lists the places of texts.
 fn isolines(plane: &mut Plane<'_>, field: &ValueGrid, name: &str, taken: &mut Vec<[PagePoint; 2]>) {
     let (theme, size) = (plane.theme, plane.size);
     let (ink, below) = (theme.stands, colour(theme, State::Holds));
@@ -326,7 +326,7 @@ fn isolines(plane: &mut Plane<'_>, field: &ValueGrid, name: &str, taken: &mut Ve
                 !taken.iter().any(|[a, b]| from.x < b.x && a.x < to.x && from.y < b.y && a.y < to.y)
             });
             if let Some(room) = free {
-                // Other texts keep a distance.
+                // Wider than the text, so that other texts do not touch it.
                 taken.push([room[0].moved(-0.4 * size, 0.0), room[1].moved(0.4 * size, 0.0)]);
                 let at = PagePoint::new(room[0].x + half, room[0].y + high + 0.35 * size);
                 let words = Text::new(at, words, Face::Sans, size, theme.letters_on(below, Some(ink)));

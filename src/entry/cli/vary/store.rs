@@ -1,5 +1,5 @@
-//! [`ResultFile`]: a file with the results of `drystone vary`. A later run of the same question reads its results and adds its
-//! own.
+//! [`ResultFile`]: a file with the results of `drystone vary`. A later run with the same question reads the file, and adds
+//! its new results at the end.
 //!
 //! The first line describes the question. Each further line is the result at one value, or at one pair of values. If a run
 //! was stopped while it wrote a line, the next run removes this incomplete line.

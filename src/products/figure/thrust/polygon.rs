@@ -218,7 +218,7 @@ fn found<'a>(canvas: &Canvas<'a>, number: usize) -> Cow<'a, FrameAnalysis> {
 pub(super) fn draw(canvas: &mut Canvas<'_>) -> Vec<String> {
     let number = canvas.number;
     let own = found(canvas, number);
-    let polygon = Polygon::new(canvas.solved().with(&own));
+    let polygon = Polygon::new(canvas.solved().with_results(&own));
     if polygon.sides.len() < 2 {
         return vec!["no force polygon: there are no two forces".to_owned()];
     }
@@ -254,7 +254,7 @@ fn scale(canvas: &Canvas<'_>) -> Option<f64> {
     let wide = (1.0 - BESIDE) * panel.width;
     let high = panel.height.max(HEIGHT * panel.width);
     let bounds = (0..canvas.analysis.frames.len()).filter_map(|frame| {
-        let polygon = Polygon::new(canvas.analysis.at(frame).with(&found(canvas, frame)));
+        let polygon = Polygon::new(canvas.analysis.at(frame).with_results(&found(canvas, frame)));
         Bounds::from_points(polygon.corners())
     });
     let fitting = bounds.map(|own| (wide / own.width()).min(high / own.height()));

@@ -312,7 +312,7 @@ fn cases(given: &Scene, solved: SolvedFrame<'_>) -> Grid {
     let Some(cases) = &frame_analysis.cases else { return grid };
     let of = |case: &CaseResult| {
         let (margins, verdict) = (case.margins.clone(), case.verdict);
-        bullet::margin_bars(solved.with(&FrameAnalysis { margins, verdict, ..frame_analysis.clone() }))
+        bullet::margin_bars(solved.with_results(&FrameAnalysis { margins, verdict, ..frame_analysis.clone() }))
             .into_iter()
             .next()
     };

@@ -251,11 +251,12 @@ fn causes(scene: &Scene) -> Vec<Fact> {
         fact("load", vec![&scene.blocks[load.block.0].id], values)
     }));
     for case in scene.cases() {
-        facts.push(fact("load case", vec![&case.id, "weights"], json!({ "factor": case.weights })));
+        let weights = format!("{}, weights", case.id);
+        facts.push(fact("load case", vec![&weights], json!({ "factor": case.weights })));
         facts.extend(case.loads.iter().enumerate().map(|(entry, factor)| {
             let number = format!("load {}", entry + 1);
             let load = scene.load_ids.get(entry).and_then(|id| id.as_deref()).unwrap_or(&number);
-            fact("load case", vec![&case.id, load], json!({ "factor": factor }))
+            fact("load case", vec![&format!("{}, {load}", case.id)], json!({ "factor": factor }))
         }));
     }
     facts
