@@ -5,7 +5,9 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::value::{FrameChoice, SensitivityMargin, TimeLimit, length, seconds};
-use crate::mechanics::analysis::{self, Accuracy, Analysis, MarginKind, MarginKinds, typed_capacity};
+use crate::mechanics::analysis::{
+    self, Accuracy, Analysis, Ask, CapacityRequest, MarginKind, MarginKinds, Question, typed_capacity,
+};
 use crate::mechanics::scene::{BlockId, Scene, SceneError, Setting};
 use crate::pictures::drawing::Theme;
 use crate::products::figure::{self, At, Fill, Kind, View};
@@ -22,15 +24,6 @@ request! {
         accuracy: Accuracy = given.word("accuracy").unwrap_or_default(),
             arg(long, value_name = "LEVEL", default_value = "standard", env = "DRYSTONE_ACCURACY",
                 hide_env_values = true, value_parser = crate::text::typed_word::<Accuracy>());
-        /// Test whether each standing frame stands only by wedging: by a self-stress that its loads do not build up
-        /// from rest
-        wedging: bool = given.flag("wedging"), arg(long);
-        /// Compute how accurately the blocks must be placed: the error up to which every standing frame is proved to
-        /// stand, and an error with which it falls
-        placement: bool = given.flag("placement"), arg(long);
-        /// Find out for each block whether the rest stands without it, and the least force of a robot that holds it or
-        /// the rest
-        removable: bool = given.flag("removable"), arg(long);
         /// Edges within this many metres touch, and bodies may overlap by up to this depth. It replaces the scene's
         /// `contact_tolerance`, or the value that is estimated from its coordinates
         contact_tolerance: Option<f64> = given.value("contact_tolerance", length),
@@ -47,14 +40,28 @@ request! {
 }
 
 request! {
-    /// Whether margins are computed, and which.
+    /// What is asked about every scene beyond its verdicts.
     #[derive(Clone, Debug)]
-    pub(crate) struct MarginArgs(given) {
+    pub(crate) struct AskArgs(given) {
         /// Compute how far each frame is from its limit: least friction and factor on it, largest tilt, horizontal load,
         /// kernel and factor on the loads, least limits of robots; or only some of these, such as friction,tilt
         margins: Option<Vec<MarginKind>> = given.all_or_some("margins"),
             arg(long, value_parser = crate::text::typed_word::<MarginKind>(), value_name = "LIST",
                 value_delimiter = ',', num_args = 0.., require_equals = true);
+        /// Compute how a margin changes with corners, weights, friction and loads, and list the ten changes with the
+        /// largest effect; --json has them all
+        sensitivity: Option<SensitivityMargin> = given.word("sensitivity"),
+            arg(long, value_parser = crate::text::typed_word::<SensitivityMargin>(), value_name = "MARGIN");
+        capacity: CapacityArgs = CapacityArgs::read(given), command(flatten);
+        /// Test whether each standing frame stands only by wedging: by a self-stress that its loads do not build up
+        /// from rest
+        wedging: bool = given.flag("wedging"), arg(long);
+        /// Compute how accurately the blocks must be placed: the error up to which every standing frame is proved to
+        /// stand, and an error with which it falls
+        placement: bool = given.flag("placement"), arg(long);
+        /// Find out for each block whether the rest stands without it, and the least force of a robot that holds it or
+        /// the rest
+        removable: bool = given.flag("removable"), arg(long);
     }
 }
 
@@ -77,12 +84,7 @@ request! {
     /// What an analysis computes, and of which frame.
     #[derive(Clone, Debug)]
     pub(crate) struct CheckArgs(given) {
-        margins: MarginArgs = MarginArgs::read(given), command(flatten);
-        /// Compute how a margin changes with corners, weights, friction and loads, and list the ten changes with the
-        /// largest effect; --json has them all
-        sensitivity: Option<SensitivityMargin> = given.word("sensitivity"),
-            arg(long, value_parser = crate::text::typed_word::<SensitivityMargin>(), value_name = "MARGIN");
-        capacity: CapacityArgs = CapacityArgs::read(given), command(flatten);
+        ask: AskArgs = AskArgs::read(given), command(flatten);
         /// With --placement: only these blocks are off their places, all others are exact
         placed: Option<Vec<String>> = given.list("placed", |r, node, at| r.text(node, at)),
             arg(long, value_name = "BLOCKS", value_delimiter = ',', requires = "placement");
@@ -106,7 +108,7 @@ request! {
             arg(long, default_value = "forces", value_parser = crate::text::typed_word::<View>());
         /// The id of the block of a free-body diagram
         block: Option<String> = given.text("block"), arg(long, value_name = "ID");
-        capacity: CapacityArgs = CapacityArgs::read(given), command(flatten);
+        ask: AskArgs = AskArgs::read(given), command(flatten);
         /// The margin of --kind sensitivity [default: load-factor if there are loads, otherwise tilt]; with kernel,
         /// --kind joints shows the forces of the largest kernel
         margin: Option<SensitivityMargin> = given.word("margin"),
@@ -181,13 +183,11 @@ impl AnalysisArgs {
         Scene::from_slice_set(lines_before, bytes, self.contact_tolerance, &self.set)
     }
 
-    /// Returns the options of the analysis, without the contact tolerance, which the reader of the scene applies.
+    /// Returns the options of an analysis that is asked nothing beyond the verdict, without the contact tolerance, which
+    /// the reader of the scene applies.
     pub(crate) fn options(&self) -> analysis::Options {
         analysis::Options {
             accuracy: self.accuracy,
-            wedging: self.wedging,
-            placement: self.placement,
-            removable: self.removable,
             deadline: self.time_limit.and_then(TimeLimit::end),
             ..analysis::Options::default()
         }
@@ -196,14 +196,11 @@ impl AnalysisArgs {
     /// Returns the name and the value of each option. A resume file records these values, because the results of a
     /// batch depend on them.
     #[cfg(feature = "cli")]
-    pub(crate) fn described(&self) -> [(&'static str, String); 7] {
+    pub(crate) fn described(&self) -> [(&'static str, String); 4] {
         let tolerance = self.contact_tolerance.map(|metres| format!("{metres} m"));
         let limit = self.time_limit.map(|limit| format!("{:?}", limit.given));
         [
             ("--accuracy", self.accuracy.word().to_owned()),
-            ("--wedging", if self.wedging { "yes" } else { "no" }.into()),
-            ("--placement", if self.placement { "yes" } else { "no" }.into()),
-            ("--removable", if self.removable { "yes" } else { "no" }.into()),
             ("--contact-tolerance", tolerance.unwrap_or_else(|| "not given".into())),
             ("--time-limit", limit.unwrap_or_else(|| "not given".into())),
             ("--set", self.set.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
@@ -211,53 +208,79 @@ impl AnalysisArgs {
     }
 }
 
-impl MarginArgs {
-    /// Adds the requested margins to the options of an analysis. An empty list means all margins.
-    pub(crate) fn add_to(&self, options: analysis::Options) -> analysis::Options {
-        let kinds = match self.margins.as_deref() {
-            None => return options,
+impl AskArgs {
+    /// Returns what is asked about a scene.
+    pub(crate) fn of(&self, scene: &Scene) -> Result<Ask, String> {
+        let margins = match self.margins.as_deref() {
+            None => MarginKinds::NONE,
             Some([]) => MarginKinds::ALL,
             Some(list) => MarginKinds::new(list),
         };
-        options.margins(true).margin_kinds(kinds)
+        let AskArgs { wedging, placement, removable, .. } = *self;
+        let sensitivity = self.sensitivity.map(|margin| margin.0);
+        let capacity = self.capacity.of(scene)?;
+        Ok(Ask { margins, sensitivity, capacity, wedging, placement, removable })
     }
+}
 
-    /// Returns the requested margins as text: `none`, `all`, or their names separated by commas.
-    #[cfg(feature = "cli")]
-    pub(crate) fn described(&self) -> String {
-        match self.margins.as_deref() {
+#[cfg(feature = "cli")]
+impl AskArgs {
+    /// Returns the name and the value of each option, for a resume file.
+    pub(crate) fn described(&self) -> [(&'static str, String); 7] {
+        let yes = |is_asked| if is_asked { "yes" } else { "no" }.to_owned();
+        let text = |value: &Option<String>| value.clone().unwrap_or_else(|| "not given".into());
+        let margins = match self.margins.as_deref() {
             None => "none".into(),
             Some([]) => "all".into(),
-            Some(list) => list.iter().map(|kind| Word::word(*kind)).collect::<Vec<_>>().join(","),
+            Some(list) => list.iter().map(|kind| kind.word()).collect::<Vec<_>>().join(","),
+        };
+        [
+            ("--margins", margins),
+            ("--sensitivity", text(&self.sensitivity.map(|margin| margin.0.word().to_owned()))),
+            ("--capacity", text(&self.capacity.capacity)),
+            ("--for-all", text(&self.capacity.for_all)),
+            ("--wedging", yes(self.wedging)),
+            ("--placement", yes(self.placement)),
+            ("--removable", yes(self.removable)),
+        ]
+    }
+
+    /// True if a question is asked.
+    pub(crate) fn has(&self, question: Question) -> bool {
+        match question {
+            Question::Margins => self.margins.is_some(),
+            Question::Sensitivity => self.sensitivity.is_some(),
+            Question::Capacity => self.capacity.capacity.is_some(),
+            Question::Wedging => self.wedging,
+            Question::Placement => self.placement,
+            Question::Removable => self.removable,
         }
     }
 }
 
 impl CapacityArgs {
-    /// Adds the block and the ranges to the options of an analysis. Without a block, the options stay unchanged.
-    pub(crate) fn add_to(&self, options: analysis::Options, scene: &Scene) -> Result<analysis::Options, String> {
+    /// Returns the block of a scene and the ranges.
+    pub(crate) fn of(&self, scene: &Scene) -> Result<Option<CapacityRequest>, String> {
         match (&self.capacity, self.for_all.as_deref()) {
-            (None, None) => Ok(options),
+            (None, None) => Ok(None),
             (None, Some(_)) => {
                 Err("--for-all limits the forces that a block can carry, so it needs --capacity too".into())
             }
-            (Some(typed), for_all) => Ok(options.capacity(typed_capacity(scene, typed, for_all)?)),
+            (Some(typed), for_all) => typed_capacity(scene, typed, for_all).map(Some),
         }
     }
 }
 
 impl CheckArgs {
-    /// Returns the options of the analysis that do not depend on the scene.
-    pub(crate) fn base(&self) -> analysis::Options {
-        let mut options = self.margins.add_to(self.level.options()).verdict_only(self.verdict_only);
-        options.sensitivity = self.sensitivity.map(|margin| margin.0);
-        options
+    /// Returns the options of the analysis of a scene.
+    pub(crate) fn options(&self, scene: &Scene) -> Result<analysis::Options, String> {
+        Ok(self.level.options().verdict_only(self.verdict_only).also(self.ask.of(scene)?))
     }
 
     /// Changes a scene such that only the blocks of the option `placed` are off their places.
     pub(crate) fn only_placed(&self, scene: &mut Scene) -> Result<(), String> {
         let Some(names) = &self.placed else { return Ok(()) };
-        if !self.level.placement {
+        if !self.ask.placement {
             return Err("--placed needs --placement".into());
         }
         let off = names.iter().map(|name| figure::named_block(scene, name)).collect::<Result<Vec<_>, _>>()?;
@@ -273,7 +296,7 @@ impl CheckArgs {
     pub(crate) fn analysis(&self, text: &str) -> Result<Analysis, Refused> {
         let mut scene = self.level.scene(text, self.frame)?;
         self.only_placed(&mut scene)?;
-        let options = self.capacity.add_to(self.base(), &scene)?;
+        let options = self.options(&scene)?;
         Ok(self.analysed(scene, &options))
     }
 
@@ -316,40 +339,46 @@ impl FigureArgs {
         if self.block.is_some() && !is_freebody {
             return Err("--block names the block of a free-body diagram; add --kind freebody".into());
         }
+        if self.ask.removable && self.kind() != Kind::Structure {
+            return Err("--removable shows which blocks may leave a structure; add --kind structure".into());
+        }
+        if self.ask.capacity.capacity.is_some() && !self.kind().needs_capacity() {
+            return Err("--capacity selects the block of a capacity figure; add --kind capacity".into());
+        }
+        if self.ask.sensitivity.is_some() && !self.kind().needs_sensitivity() {
+            return Err("--sensitivity selects the margin of a figure; add --kind sensitivity".into());
+        }
         if self.options.corners == figure::Corners::All && !is_freebody {
             return Err("--corners applies to the forces of a free-body diagram; add --kind freebody".into());
         }
         Ok(())
     }
 
-    /// Returns `base` with the block of the capacity and its ranges. If the figure shows the sensitivity of a margin,
-    /// the options also name this margin.
-    pub(crate) fn add_to(&self, base: analysis::Options, scene: &Scene) -> Result<analysis::Options, String> {
-        let mut options = self.capacity.add_to(base, scene)?;
+    /// Returns what a user asks about a scene for its figure.
+    fn ask(&self, scene: &Scene) -> Result<Ask, String> {
+        let mut ask = self.ask.of(scene)?;
+        ask.removable |= self.view().needs_removable();
         if self.kind().needs_sensitivity() {
-            options.sensitivity = self.margin.map(|margin| margin.0);
+            ask.sensitivity = self.margin.map(|margin| margin.0).or(ask.sensitivity);
         }
-        Ok(options)
+        Ok(ask)
     }
 
-    /// Analyses a scene, and also computes the margins, the sensitivity or the capacity that the figure shows.
-    pub(crate) fn analysed(&self, scene: &Scene, options: &analysis::Options, look: &figure::Options) -> Analysis {
-        let mut options = *options;
-        options.removable |= self.view().needs_removable();
-        self.kind().analysed(scene, &options, look)
+    /// Analyses a scene for its figure: asks for the answers that the figure shows, too.
+    pub(crate) fn analysed(&self, scene: &Scene, options: analysis::Options) -> Result<Analysis, String> {
+        Ok(self.kind().analysed(scene, options.also(self.ask(scene)?), &self.shown()))
     }
 
-    /// Returns an analysis with all results that the figure shows: the given one, or a new one of the same scene if it
-    /// lacks some.
+    /// Returns an analysis with all answers that the figure shows: the given one, or a new one of the same scene if it
+    /// was not asked for some.
     #[cfg(any(feature = "python", feature = "wasm"))]
     pub(crate) fn completed(&self, analysis: &Analysis) -> Result<Analysis, String> {
-        let options = self.add_to(analysis::Options::default(), analysis.given())?;
-        let look = self.shown();
-        Ok(if self.kind().lacks(analysis, &options, &look) {
-            self.analysed(analysis.given(), &options, &look)
-        } else {
-            analysis.clone()
-        })
+        let (scene, options) = (analysis.given(), analysis.options());
+        let ask = self.kind().asks(scene, options.ask.and(self.ask(scene)?), &self.shown());
+        if options.ask.covers(ask) {
+            return Ok(analysis.clone());
+        }
+        self.analysed(scene, analysis::Options { deadline: None, verdict_only: false, ..*options })
     }
 
     /// Returns the options of the figure of a scene, in a theme and on a page of this width in pixels.

@@ -14,7 +14,7 @@ mod turn;
 
 use std::hint::black_box;
 
-use drystone::analysis::Options;
+use drystone::analysis::{MarginKinds, Options};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
 
@@ -26,7 +26,7 @@ const TURNS: Turns = Turns { least: 15, most: 15, seconds: 0.0 };
 
 fn main() {
     let plain = Options::default();
-    let margins = plain.margins(true);
+    let margins = plain.margins(MarginKinds::ALL);
     let wedging = plain.wedging(true);
     let robots = json!([{ "id": "r", "holds": "40", "limits": { "force": 100.0 } },
         { "id": "s", "holds": "60", "limits": { "force": 100.0 } }]);

@@ -24,11 +24,11 @@ fn main() {
     let scene = scene(&file);
     let plain = Options::default();
     let kind = MarginKind::LoadFactor;
-    let one = plain.margins(true).margin_kinds(MarginKinds::new(&[kind]));
+    let one = plain.margins(MarginKinds::new(&[kind]));
     let cases = [
         ("a check", plain),
         ("with the load factor", one),
-        ("with all margins", plain.margins(true)),
+        ("with all margins", plain.margins(MarginKinds::ALL)),
         ("with the load factor and its derivatives", plain.sensitivity(kind)),
     ];
     let work = cases.map(|(_, options)| {

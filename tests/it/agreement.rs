@@ -62,7 +62,7 @@ fn all_ways_to_get_a_result_agree() {
         assert_eq!(&line, check, "scene {number}");
 
         let scene = SceneFile::from_json(&file.to_string()).expect("a scene file");
-        let options = Options::default().margins(true);
+        let options = Options::default().margins(MarginKinds::ALL);
         let session = Session::with(scene, options).expect("a sound scene");
         let margins = session.analysis();
         let written = to_json(&margins, Timing::LeftOut, Layout::OneLine);

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use drystone::analysis::{Options, Verdict};
+use drystone::analysis::{MarginKinds, Options, Verdict};
 use drystone::certificate::{Certificate, Checked};
 use drystone::{Analysis, Scene};
 use serde_json::{Value, json};
@@ -198,7 +198,7 @@ fn certificates_keep_fixed_loads_at_every_load_factor() {
         "blocks": [{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 2], [0, 2]], "weight": 88000 }],
         "loads": [{ "block": "a", "force": [4000, 0], "at": [0, 1], "fixed": true },
                   { "block": "a", "force": [1000, 0], "at": [0, 2] }] }"#;
-    let options = Options::default().margins(true);
+    let options = Options::default().margins(MarginKinds::ALL);
     let certificate = certificate(&Scene::from_json(text).expect("a scene"), &options);
     let checked = certificate.check().expect("a structure");
     assert!(proved(&checked).iter().all(|proved| *proved), "{checked:?}");
@@ -250,7 +250,7 @@ fn both_sides_of_margins_and_capacities_are_exact() {
         !AT_THEIR_LIMIT.contains(&name.as_str()) && scene.frames().len() == 1 && scene.blocks().len() <= 9
     });
     for (name, scene) in std::iter::once(("robot".to_owned(), robot)).chain(all.take(30)) {
-        let certificate = certificate(&scene, &Options::default().margins(true));
+        let certificate = certificate(&scene, &Options::default().margins(MarginKinds::ALL));
         let checked = certificate.check().expect("a structure");
         for limit in &checked.limits {
             sides += 1;
@@ -312,7 +312,7 @@ fn placement_tolerances_are_exact_for_both_checkers() {
 /// A left-out contact proves a margin too small, and a block that is placed twice has its weight twice.
 #[test]
 fn changed_frames_need_every_contact_and_no_block_counts_twice() {
-    let right = certificate(&Scene::from_json(ROBOT).expect("a scene"), &Options::default().margins(true));
+    let right = certificate(&Scene::from_json(ROBOT).expect("a scene"), &Options::default().margins(MarginKinds::ALL));
     let (mut bare, mut twice) = (right.clone(), right.clone());
     // Replace the contact between the two blocks by a copy of the other contact, so that it is missing.
     let contacts = &mut bare.frames[0].contacts;
@@ -337,7 +337,8 @@ fn changed_frames_need_every_contact_and_no_block_counts_twice() {
 /// Changes of a certificate that the page does not allow. Each is refused as a whole by both checkers.
 #[test]
 fn keys_and_types_that_are_not_on_the_page_prove_nothing() {
-    let right = certificate(&Scene::from_json(ROBOT).expect("a scene"), &Options::default().margins(true)).to_json();
+    let right = certificate(&Scene::from_json(ROBOT).expect("a scene"), &Options::default().margins(MarginKinds::ALL))
+        .to_json();
     let right: Value = serde_json::from_str(&right).expect("JSON");
     let changes: [(&str, &str, Value); 14] = [
         ("/limits/0", "gravity", json!([0, -1])),
@@ -418,7 +419,7 @@ fn a_wrong_number_is_refused_by_both_checkers_or_by_none() {
         .iter()
         .filter(|(_, scene)| scene.frames().len() == 1 && scene.blocks().len() <= 5)
         .take(12)
-        .map(|(_, scene)| certificate(scene, &Options::default().margins(true).placement(true)))
+        .map(|(_, scene)| certificate(scene, &Options::default().margins(MarginKinds::ALL).placement(true)))
         .filter(|certificate| !certificate.limits.is_empty())
         .collect();
     let mut mutants = Vec::new();
@@ -516,7 +517,7 @@ fn grips_at_a_centroid_and_kernels_up_to_one_are_exact_for_both_checkers() {
     let kernel = include_str!("../fuzz/seeds/read_scene/kernel-limit.json");
     let certificates = [first.as_str(), kernel].map(|text| {
         let scene = Scene::from_json(text).expect("a scene");
-        certificate(&scene, &Options::default().margins(true))
+        certificate(&scene, &Options::default().margins(MarginKinds::ALL))
     });
     let kernels = certificates[1].limits.iter().filter_map(|limit| limit.change.kernel);
     let kernels: Vec<f64> = kernels.collect();

@@ -19,7 +19,7 @@ const WALL: &str = include_str!("../../assets/questions/retaining-wall.json");
 const BRIDGE: &str = include_str!("../../assets/questions/bridge-vehicle.json");
 
 fn asked() -> Options {
-    Options::default().margins(true).placement(true).removable(true)
+    Options::default().margins(MarginKinds::ALL).placement(true).removable(true)
 }
 
 fn frame(scene: Scene, options: &Options) -> FrameAnalysis {
@@ -92,11 +92,11 @@ fn answers_of_random_load_cases_are_those_of_the_worst_of_each() {
 fn the_worst_case_does_not_depend_on_what_is_asked() {
     let file: Value = serde_json::from_str(WALL).expect("JSON");
     let tilt = MarginKinds::new(&[MarginKind::Tilt]);
-    for options in [Options::default(), Options::default().margins(true).margin_kinds(tilt), asked()] {
+    for options in [Options::default(), Options::default().margins(tilt), asked()] {
         let found = frame(scene(&file), &options);
         let cases = found.cases.as_ref().expect("cases");
         assert_eq!(cases.each[cases.governing].id, "earth and people");
-        assert_eq!(found.margins.is_some(), options.margins);
+        assert_eq!(found.margins.is_some(), !options.ask.margins.is_empty());
     }
 }
 
@@ -122,8 +122,10 @@ fn results_name_the_case_or_the_position_that_decides_each_answer() {
     assert_eq!((&wall["margins"]["load_factor"][1], &wall["margins"]["friction"][0]), (&people, &people));
     assert_eq!((&wall["margins"]["kernel"][1], &wall["margins"]["horizontal_load"][1]), (&people, &wind));
     assert_eq!((&wall["placement"], &wall["removable"][0]["case"]), (&json!([wind, wind]), &json!("earth alone")));
-    let analysis =
-        Analysis::with(scene(&serde_json::from_str(BRIDGE).expect("JSON")), &Options::default().margins(true));
+    let analysis = Analysis::with(
+        scene(&serde_json::from_str(BRIDGE).expect("JSON")),
+        &Options::default().margins(MarginKinds::ALL),
+    );
     let bridge: Value =
         serde_json::from_str(&to_json(&analysis, Timing::LeftOut, Layout::OneLine)).expect("JSON of the result");
     let position = &bridge["frames"][0]["vehicle"]["governing"];
@@ -152,7 +154,7 @@ fn ladder(mu: f64, corners: impl Into<Value>) -> FrameAnalysis {
             { "id": "floor", "polygon": [[-3, -1], [3.2, -1], [3.2, 0], [-3, 0]] },
             { "id": "wall", "polygon": [[2.2, 0], [3.2, 0], [3.2, 6], [2.2, 6]] }],
         "blocks": [{ "id": "ladder", "polygon": [[0, 0], [0.12, 0], [2.2, 4.5], [2.1, 4.55]], "weight": 100 }] });
-    frame(scene(&file), &Options::default().margins(true))
+    frame(scene(&file), &Options::default().margins(MarginKinds::ALL))
 }
 
 #[test]
@@ -200,7 +202,7 @@ fn a_corner_that_just_misses_an_edge_is_noted() {
 fn answers_of_a_bridge_hold_at_every_position_of_its_vehicle() {
     let file: Value = serde_json::from_str(BRIDGE).expect("JSON");
     let kinds = MarginKinds::new(&[MarginKind::Tilt, MarginKind::Kernel, MarginKind::Friction]);
-    let options = Options::default().margins(true).margin_kinds(kinds);
+    let options = Options::default().margins(kinds);
     let block = scene(&file).block_named("A5").expect("a stone");
     let asked = options.capacity(CapacityRequest::of_block(block));
     let analysis = Analysis::with(scene(&file), &asked);
@@ -248,8 +250,10 @@ fn answers_of_a_bridge_hold_at_every_position_of_its_vehicle() {
 #[test]
 fn the_headline_of_a_scene_with_movements_states_the_first_one() {
     let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/questions/spreading-arch.json"));
-    let found =
-        Analysis::with(Scene::from_json(&text.expect("there")).expect("sound"), &Options::default().margins(true));
+    let found = Analysis::with(
+        Scene::from_json(&text.expect("there")).expect("sound"),
+        &Options::default().margins(MarginKinds::ALL),
+    );
     let page = drystone::figure::draw(&found, drystone::figure::Kind::Forces, &drystone::figure::Options::default());
     let svg = drystone::output::svg::write(&page);
     assert!(svg.contains("4 joints open by up to 1.36 mm if right moves by (0.01, 0) m (1 of 2 movements)"), "{svg}");
@@ -321,8 +325,10 @@ fn each_case_has_its_capacity_movement_and_sensitivity() {
         json!([{ "id": "snow", "block": "v3", "force": [0, -20] }, { "id": "wind", "block": "v2", "force": [15, 0] }]);
     file["cases"] = json!([{ "id": "snow", "loads": { "snow": 1.5 } }, { "id": "wind", "loads": { "wind": 1 } }]);
     let block = scene(&file).block_named("v3").expect("a stone");
-    let options =
-        Options::default().margins(true).sensitivity(MarginKind::Tilt).capacity(CapacityRequest::of_block(block));
+    let options = Options::default()
+        .margins(MarginKinds::ALL)
+        .sensitivity(MarginKind::Tilt)
+        .capacity(CapacityRequest::of_block(block));
     let found = frame(scene(&file), &options);
     let alone = |id: &str| {
         let mut one = file.clone();
@@ -380,7 +386,7 @@ fn joints_in_sets_have_their_friction_and_a_factor_acts_on_the_named_ones() {
             "loads": [{ "block": "c", "force": [30, 0], "at": [1, 1.2] }] })
     };
     let factor = |on: Value| {
-        let found = frame(scene(&file(on)), &Options::default().margins(true));
+        let found = frame(scene(&file(on)), &Options::default().margins(MarginKinds::ALL));
         let mut mu: Vec<f64> = found.contacts.iter().map(|contact| contact.interface.friction).collect();
         mu.sort_by(f64::total_cmp);
         assert_eq!(mu, [0.1, 0.4, 0.6, 0.6, 0.6]);
@@ -400,7 +406,7 @@ fn joints_in_sets_have_their_friction_and_a_factor_acts_on_the_named_ones() {
     program.stdin.take().expect("a pipe").write_all(file(json!(["beds"])).to_string().as_bytes()).expect("written");
     let words = String::from_utf8(program.wait_with_output().expect("it ends").stdout).expect("text");
     assert!(words.contains("stands with the friction of beds times at least 0.5"), "{words}");
-    let beds = Analysis::with(scene(&file(json!(["beds"]))), &Options::default().margins(true));
+    let beds = Analysis::with(scene(&file(json!(["beds"]))), &Options::default().margins(MarginKinds::ALL));
     let page = drystone::figure::draw(&beds, drystone::figure::Kind::Joints, &drystone::figure::Options::default());
     let svg = drystone::output::svg::write(&page);
     assert!(svg.contains("× the friction of beds") && !svg.contains("its friction"), "{svg}");

@@ -4,7 +4,7 @@ use std::fs;
 use std::process::Command;
 use std::sync::Arc;
 
-use drystone::analysis::{FrameAnalysis, Options};
+use drystone::analysis::{FrameAnalysis, MarginKinds, Options};
 use drystone::certificate::Certificate;
 use drystone::result::{Layout, Timing, to_json};
 use drystone::scene::{Code, Scene};
@@ -82,7 +82,7 @@ fn frames_in_the_same_state_share_their_results() {
     let steps = [json!({ "place": ["a"] }), on.clone(), json!({ "title": "still" }), json!({ "release": ["r"] })];
     let again = [json!({ "remove": ["b"] }), on, json!({ "release": ["r"], "remove": ["b"] }), json!({})];
     file["steps"] = steps.iter().chain(&again).chain(&again[1..]).cloned().collect();
-    let options = Options::default().margins(true).removable(true).placement(true);
+    let options = Options::default().margins(MarginKinds::ALL).removable(true).placement(true);
     let one_case = json!([{ "id": "c", "loads": {} }]);
     for cases in [json!([]), one_case] {
         file["cases"] = cases;

@@ -282,7 +282,7 @@ fn a_wall_a_hundred_thousandth_before_its_limit_is_balanced_quickly() {
 #[test]
 fn just_beyond_its_limit_a_wall_needs_the_least_adhesion_by_duality() {
     let file = wall(16, 16);
-    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Tilt]));
+    let options = Options::default().margins(MarginKinds::new(&[MarginKind::Tilt]));
     let upright = Analysis::with(scene(&file), &options).frames.remove(0);
     let margins = upright.margins.as_ref().expect("margins were requested");
     let limit = margins.most(MarginKind::Tilt).expect("the tilt has a limit");

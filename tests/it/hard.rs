@@ -290,7 +290,7 @@ fn a_row_of_round_stones_passes_on_a_push_for_ever() {
             "ground": [{ "polygon": rectangle(-2.0, -1.0, count as f64 + 3.0, 1.0) }],
             "blocks": (0..count).map(stone).collect::<Vec<_>>(),
             "loads": [{ "block": "c0", "force": [1, 0], "at": [-0.5, 0.5] }] });
-        let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
+        let options = Options::default().margins(MarginKinds::new(&[MarginKind::Friction]));
         let found = Analysis::with(scene(&file), &options).frames.remove(0);
         assert_ne!(found.verdict, Verdict::Stable, "{count} stones");
         let least = found.margins.as_ref().and_then(|margins| margins.least(MarginKind::Friction));

@@ -27,7 +27,7 @@ use exact::{
 use random::random_scene;
 
 fn analysed(scene: &Scene) -> Margins {
-    let analysis = Analysis::with(scene, &Options::default().margins(true));
+    let analysis = Analysis::with(scene, &Options::default().margins(MarginKinds::ALL));
     analysis.frames[0].margins.clone().expect("margins were requested")
 }
 

@@ -239,7 +239,7 @@ fn the_family_of_lines_of_thrust_lies_between_the_least_and_the_greatest_thrust(
     let scene = scene("study/arch-27.json");
     let plain = Analysis::new(&scene);
     let kinds = Kind::Thrust.stated_margins(&plain).expect("the kernel");
-    let margin_options = drystone::analysis::Options::default().margins(true).margin_kinds(kinds);
+    let margin_options = drystone::analysis::Options::default().margins(kinds);
     let analysis = Analysis::with(&scene, &margin_options);
     let family = analysis.thrust_states(0);
     let [least, central, greatest] =

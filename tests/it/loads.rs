@@ -15,7 +15,7 @@ fn scene(file: Value) -> Scene {
 
 /// The largest factor on the loads with which the first frame stands.
 fn factor(scene: &Scene) -> f64 {
-    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
+    let options = Options::default().margins(MarginKinds::new(&[MarginKind::LoadFactor]));
     let margins = Analysis::with(scene, &options).frames[0].margins.clone().expect("requested");
     margins.most(MarginKind::LoadFactor).expect("a limit")
 }
@@ -146,7 +146,7 @@ fn a_fixed_load_keeps_its_amount_when_the_load_factor_changes() {
     // If all loads are fixed, no factor exists.
     let mut only = loads;
     only[1]["fixed"] = json!(true);
-    let options = Options::default().margins(true);
+    let options = Options::default().margins(MarginKinds::ALL);
     let frames = Analysis::with(scene(on_floor(1.0, 2.0, 9.0, only)), &options).frames;
     assert_eq!(frames[0].margins.as_ref().expect("requested").of(MarginKind::LoadFactor), None);
 }
@@ -170,7 +170,7 @@ fn a_frame_has_the_results_of_its_worst_case() {
         { "id": "weight alone", "loads": {} },
         { "id": "push", "weights": 0.9, "loads": { "push": 1.5 } },
         { "id": "all" }]);
-    let options = Options::default().margins(true);
+    let options = Options::default().margins(MarginKinds::ALL);
     let frame = Analysis::with(with_cases(cases.clone()), &options).frames.remove(0);
     let found = frame.cases.as_ref().expect("the scene has cases");
     assert_eq!(frame.verdict, Verdict::Stable);
@@ -210,7 +210,7 @@ fn each_step_has_the_scene_of_its_own_worst_case() {
     file["cases"] =
         json!([{ "id": "to the right", "loads": { "right": 1 } }, { "id": "to the left", "loads": { "left": 2 } }]);
     file["steps"] = json!([{ "place": ["dam"] }, { "place": ["top"] }]);
-    let analysis = Analysis::with(scene(file.clone()), &Options::default().margins(true));
+    let analysis = Analysis::with(scene(file.clone()), &Options::default().margins(MarginKinds::ALL));
     let worst: Vec<&str> = analysis
         .frames
         .iter()
@@ -252,7 +252,7 @@ fn the_cases_on_the_page_of_questions_have_the_factors_that_it_states() {
         |path: &str| std::fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).expect("readable");
     let page = read("src/doc/questions.md");
     let scene = Scene::from_json(&read("assets/questions/retaining-wall.json")).expect("valid");
-    let frame = Analysis::with(&scene, &Options::default().margins(true)).frames.remove(0);
+    let frame = Analysis::with(&scene, &Options::default().margins(MarginKinds::ALL)).frames.remove(0);
     let cases = frame.cases.as_ref().expect("the scene has cases");
     assert_eq!(cases.each.len(), 3);
     for case in &cases.each {

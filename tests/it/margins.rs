@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use crate::structure::{arch, block, on_floor, on_slope, rectangle, scene, verdict, wall};
 
 fn frames(scene: &Scene) -> Vec<Arc<FrameAnalysis>> {
-    let options = Options::default().margins(true);
+    let options = Options::default().margins(MarginKinds::ALL);
     Analysis::with(scene, &options).frames
 }
 
@@ -220,7 +220,7 @@ fn a_ladder_at_a_smooth_wall_needs_a_multiple_of_its_friction() {
     for (friction, wall_friction) in [(0.4, 0.0), (0.7, 0.0), (0.3, 0.2)] {
         let scene =
             Scene::new(Ladder { friction, wall_friction, angle: 45.0, ..Ladder::default() }.scene()).expect("sound");
-        let found = Analysis::with(&scene, &Options::default().margins(true));
+        let found = Analysis::with(&scene, &Options::default().margins(MarginKinds::ALL));
         let margins = found.frames[0].margins.as_ref().expect("margins were requested");
         let (corners, lever) = (scene.blocks()[0].body.polygon.outline().to_vec(), scene.blocks()[0].centroid.x);
         let top = corners[1];
@@ -355,7 +355,7 @@ fn a_margin_needs_few_verdicts_of_verdicts() {
 fn a_margin_requested_alone_has_the_same_value() {
     let file = scene(&arch(15, 0.3, 0.7));
     let all = frames(&file).remove(0);
-    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
+    let options = Options::default().margins(MarginKinds::new(&[MarginKind::Friction]));
     let alone = Analysis::with(&file, &options).frames.remove(0);
     assert!(verdicts(&alone) < verdicts(&all));
     let (all, alone) = (

@@ -1,7 +1,7 @@
 //! Figures of elementary mechanisms: the bodies do not penetrate each other, and they slide along their joints.
 
 use drystone::Analysis;
-use drystone::analysis::{FrameAnalysis, Motion, Verdict};
+use drystone::analysis::{FrameAnalysis, MarginKinds, Motion, Verdict};
 use drystone::drawing::{Camera, Group, Item};
 use drystone::figure::{self, Kind, Options};
 use drystone::internals::geometry::{ConvexPieces, Point, Polygon, Vector, cross, overlap};
@@ -182,7 +182,7 @@ fn the_figure_of_a_margin_shows_the_structure_and_its_fall() {
     let text = r#"{ "drystone": 1, "friction": 0.9, "ground": [ { "polygon": [[-5,-1],[6,-1],[6,0],[-5,0]] } ],
         "blocks": [ { "id": "a", "polygon": [[0,0],[1,0],[1,4],[0,4]], "weight": 8 } ] }"#;
     let scene = Scene::from_json(text).unwrap_or_else(|problems| panic!("{problems}"));
-    let options = drystone::analysis::Options::default().margins(true);
+    let options = drystone::analysis::Options::default().margins(MarginKinds::ALL);
     let analysis = Analysis::with(&scene, &options);
     let (turn, motions) = analysis.edge(0, drystone::analysis::MarginKind::Tilt).expect("it topples");
     assert!((turn.abs() - 14.036).abs() < 1e-2, "{turn}");
@@ -305,7 +305,7 @@ fn the_headline_states_the_friction_or_the_load_at_which_it_would_stand() {
     let slide = scene("tests/scenes/slide.json");
     let kinds = Kind::Mechanism.stated_margins(&Analysis::new(&slide));
     let kinds = kinds.expect("it has a headline");
-    let options = drystone::analysis::Options::default().margins(true).margin_kinds(kinds);
+    let options = drystone::analysis::Options::default().margins(kinds);
     let svg = |scene: &Scene| {
         let analysis = Analysis::with(scene, &options);
         let drawing = figure::draw(&analysis, Kind::Mechanism, &Options::default());

@@ -8,7 +8,7 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use drystone::analysis::{Accuracy, Analysis, CapacityRequest, MarginKind, Options, Verdict};
+use drystone::analysis::{Accuracy, Analysis, CapacityRequest, MarginKind, MarginKinds, Options, Verdict};
 use drystone::result::{Layout, Timing, to_json};
 use drystone::{Scene, figure, output};
 use serde_json::{Map, Value, json};
@@ -307,7 +307,7 @@ fn every_question_is_answered_at_the_ends_of_kernel_and_friction() {
             }
             let scene = Scene::from_json(&file.to_string()).expect("a scene");
             let held = scene.block_named("1").or(scene.block_named("a")).or(scene.block_named("v1")).expect("a block");
-            let all = Options::default().margins(true).wedging(true).placement(true).removable(true);
+            let all = Options::default().margins(MarginKinds::ALL).wedging(true).placement(true).removable(true);
             let all = all.sensitivity(MarginKind::Tilt).capacity(CapacityRequest::of_block(held));
             let strict = (friction == 0.6).then(|| all.accuracy(Accuracy::Proved));
             for options in [Some(all), strict].into_iter().flatten() {

@@ -9,7 +9,7 @@ mod result;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use drystone::analysis::{Analysis, CapacityRequest, MarginKind, Options};
+use drystone::analysis::{Analysis, CapacityRequest, MarginKind, MarginKinds, Options};
 use drystone::certificate::Certificate;
 use drystone::result::key::{KEYS, Key, REFUSAL_KEYS, Type, paths};
 use drystone::result::{Layout, Timing, refusal, schema, to_json_with_blocks};
@@ -410,21 +410,22 @@ fn every_key_of_real_results_is_described_and_every_described_key_occurs() {
     }
     for (number, text) in texts.iter().enumerate() {
         let scene = Scene::from_json(text).expect("sound");
-        let mut options = Options::default().margins(true).wedging(true).sensitivity(MarginKind::LoadFactor);
+        let mut options =
+            Options::default().margins(MarginKinds::ALL).wedging(true).sensitivity(MarginKind::LoadFactor);
         // For a few scenes, the forces that the first block can carry are requested too.
         if number < 6 {
             let first = scene.block_named(&scene.blocks()[0].id);
-            options.capacity = first.map(CapacityRequest::of_block);
-            options.placement = true;
-            options.removable = true;
+            options.ask.capacity = first.map(CapacityRequest::of_block);
+            options.ask.placement = true;
+            options.ask.removable = true;
         }
         // The conditions that decide these answers are named.
         if text.contains("retains earth") || text.contains("\"vehicle\"") {
             // A bridge of many stones takes long.
-            (options.placement, options.removable) = (true, scene.blocks().len() < 20);
+            (options.ask.placement, options.ask.removable) = (true, scene.blocks().len() < 20);
         }
         if text.contains("\"cases\"") || text.contains("\"vehicle\"") && scene.blocks().len() < 20 {
-            options.capacity = scene.block_named(&scene.blocks()[0].id).map(CapacityRequest::of_block);
+            options.ask.capacity = scene.block_named(&scene.blocks()[0].id).map(CapacityRequest::of_block);
         }
         let mut analysis = Analysis::with(&scene, &options);
         if number < 6 {

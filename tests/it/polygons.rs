@@ -1,6 +1,6 @@
 //! Missing forces and loads in figures: the figure of a structure that falls must not look like a balance.
 
-use drystone::analysis::{Analysis, MarginKind, Options as AnalysisOptions, Verdict};
+use drystone::analysis::{Analysis, MarginKind, MarginKinds, Options as AnalysisOptions, Verdict};
 use drystone::drawing::{Drawing, Group, Item, Theme};
 use drystone::figure::{self, Kind, Options};
 use drystone::report::entry::{Entry, File, ReportOptions, SheetPart};
@@ -62,7 +62,7 @@ fn a_margin_that_ends_at_0_names_the_side_to_which_the_structure_falls() {
         "ground": [{ "polygon": [[-4, -1], [0, -1], [0, 0], [-4, 0]] }],
         "blocks": [{ "id": "a", "polygon": [[-1, 0], [1, 0], [1, 1], [-1, 1]], "weight": 1 }] });
     let scene = crate::structure::scene(&file);
-    let analysis = Analysis::with(&scene, &AnalysisOptions::default().margins(true));
+    let analysis = Analysis::with(&scene, &AnalysisOptions::default().margins(MarginKinds::ALL));
     for (toward, expected) in
         [(MarginKind::Tilt, "stands from 30.9° left to 0°"), (MarginKind::HorizontalLoad, "stands from 0.6 left to 0")]
     {
@@ -76,7 +76,7 @@ fn a_margin_that_ends_at_0_names_the_side_to_which_the_structure_falls() {
 
 #[test]
 fn a_margin_with_two_ends_shows_one_collapse() {
-    let analysis = Analysis::with(block(1.0, 0.5), &AnalysisOptions::default().margins(true));
+    let analysis = Analysis::with(block(1.0, 0.5), &AnalysisOptions::default().margins(MarginKinds::ALL));
     let ends = analysis.edges(0, MarginKind::Tilt);
     assert_eq!(ends.len(), 2);
     assert!(ends[0].0.abs() <= ends[1].0.abs() && ends[0].0 * ends[1].0 < 0.0);
@@ -93,7 +93,7 @@ fn a_margin_with_two_ends_shows_one_collapse() {
 
 #[test]
 fn a_margin_of_loads_states_the_loads_at_which_the_verdict_changes() {
-    let analysis_options = AnalysisOptions::default().margins(true);
+    let analysis_options = AnalysisOptions::default().margins(MarginKinds::ALL);
     let options = Options::default().at(drystone::figure::At::Margin(MarginKind::LoadFactor));
     let pushed = block(1.0, 2.0);
     let analysis = Analysis::with(&pushed, &analysis_options);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use drystone::analysis::{MarginKind, Margins, Options, Verdict};
+use drystone::analysis::{MarginKind, MarginKinds, Margins, Options, Verdict};
 use drystone::scene::format::{BlockEntry, CircleEntry, GroundEntry};
 use drystone::scene::{NoteCode, Point};
 use drystone::{Analysis, Scene};
@@ -26,7 +26,10 @@ fn floor() -> Value {
 }
 
 fn margins(file: &Value) -> Margins {
-    Analysis::with(scene(file), &Options::default().margins(true)).frames[0].margins.clone().expect("margins")
+    Analysis::with(scene(file), &Options::default().margins(MarginKinds::ALL)).frames[0]
+        .margins
+        .clone()
+        .expect("margins")
 }
 
 #[test]

@@ -29,7 +29,7 @@ fn single(file: &Value, loads: &[(String, [f64; 2], f64)]) -> Option<f64> {
     file.as_object_mut().expect("an object").remove("vehicle");
     let loads = loads.iter().map(|(block, at, weight)| json!({ "block": block, "at": at, "force": [0, -weight] }));
     file["loads"] = loads.collect();
-    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
+    let options = Options::default().margins(MarginKinds::new(&[MarginKind::LoadFactor]));
     let frame = Analysis::with(scene(&file), &options).frames.remove(0);
     frame.margins.as_ref().expect("margins").most(MarginKind::LoadFactor)
 }
@@ -225,7 +225,7 @@ fn the_least_factor_of_two_load_cases_is_the_same_whatever_else_is_computed() {
         let line = frame.vehicle.clone().expect("an influence line");
         line.positions[line.governing.expect("a position")].factor.expect("a factor")
     };
-    for options in [Options::default(), Options::default().margins(true)] {
+    for options in [Options::default(), Options::default().margins(MarginKinds::ALL)] {
         assert!((least(&options) - 1.5).abs() < 1e-5, "{}", least(&options));
     }
     // An axle of 2 stands in the case `full` only.

@@ -2,13 +2,13 @@
 //! in one direction. The numbers are those of public exercises, whose data the scenes have.
 
 use drystone::Scene;
-use drystone::analysis::{Analysis, End, FrameAnalysis, Interval, MarginKind, Options, Verdict};
+use drystone::analysis::{Analysis, End, FrameAnalysis, Interval, MarginKind, MarginKinds, Options, Verdict};
 use drystone::certificate::Certificate;
 use serde_json::{Value, json};
 
 fn analysed(file: &Value) -> FrameAnalysis {
     let scene = Scene::from_json(&file.to_string()).unwrap_or_else(|problems| panic!("{problems}"));
-    (*Analysis::with(scene, &Options::default().margins(true)).frames[0]).clone()
+    (*Analysis::with(scene, &Options::default().margins(MarginKinds::ALL)).frames[0]).clone()
 }
 
 fn factor(found: &FrameAnalysis, kind: MarginKind) -> f64 {
@@ -111,7 +111,7 @@ fn a_load_may_be_fixed_in_one_direction() {
     assert_eq!(margin.conditions[1].case, Some(1));
     // A certificate has both parts, and proves all margins.
     let scene = Scene::from_json(&vertical.to_string()).expect("a scene");
-    let mut analysis = Analysis::with(scene, &Options::default().margins(true));
+    let mut analysis = Analysis::with(scene, &Options::default().margins(MarginKinds::ALL));
     let certificate = Certificate::new(&mut analysis, String::new(), true);
     let checked = certificate.check().expect("a sound certificate");
     assert!(checked.is_exact() && checked.limits.len() > 10, "{:?}", checked.limits);

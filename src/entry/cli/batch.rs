@@ -20,10 +20,10 @@ use crate::entry::cli::picture::{Format, Picture};
 use crate::entry::cli::source::read_in_time;
 use crate::entry::cli::style_args::StyleArgs;
 use crate::entry::cli::terminal::Terminal;
-use crate::entry::request::{AnalysisArgs, MarginArgs};
+use crate::entry::request::{AnalysisArgs, AskArgs};
 use crate::mechanics::analysis::{Accuracy, Analysis, Options, Verdict, verdicts};
 use crate::mechanics::batch::{Capacity, Record, Records, in_order};
-use crate::mechanics::scene::{Code, Problem, isolate};
+use crate::mechanics::scene::{Code, Problem, Scene, isolate};
 use crate::pictures::output::file::Existing;
 use crate::pictures::output::fonts::Fonts;
 use crate::products::figure;
@@ -72,7 +72,7 @@ pub(crate) struct Batch {
     #[arg(long, value_name = "SECONDS", value_parser = pace::seconds)]
     progress: Option<f64>,
     #[command(flatten)]
-    margins: MarginArgs,
+    ask: AskArgs,
     #[command(flatten)]
     picture: Picture,
     #[command(flatten)]
@@ -161,8 +161,8 @@ impl Batch {
             "csv" if self.resume => refuse(
                 "--resume needs one line for each scene, and a .csv file has one row for each frame; write an .ndjson file",
             ),
-            "csv" if self.fields != Fields::default() || self.margins.margins.is_some() => refuse(
-                "a .csv file has the same columns in every run; for --fields and --margins write an .ndjson file",
+            "csv" if self.selected() != Fields::default() => refuse(
+                "a .csv file has the same columns in every run; for --fields and answers such as --margins write an .ndjson file",
             ),
             "csv" => Ok(Form::Csv),
             "parquet" | "xlsx" | "ods" | "tsv" | "db" | "sqlite" => refuse(&format!(
@@ -192,37 +192,27 @@ impl Batch {
                 })
             }
         };
-        let mut fields = self.fields.clone();
-        if self.margins.margins.is_some() {
-            fields = fields.with_margins();
-        }
-        if self.level.wedging {
-            fields = fields.with_wedging();
-        }
-        if self.level.placement {
-            fields = fields.with_placement();
-        }
-        if self.level.removable {
-            fields = fields.with_removable();
-        }
         Ok(SceneWork {
             level: self.level.clone(),
-            margins: self.margins.clone(),
-            fields,
+            ask: self.ask.clone(),
+            fields: self.selected(),
             form,
             drawn: drawn.map(Arc::new),
         })
     }
 
+    /// Returns the fields of the lines: those of `--fields`, and the answers to all questions.
+    fn selected(&self) -> Fields {
+        self.fields.clone().answering(|question| self.ask.has(question))
+    }
+
     /// Returns the settings on which the output lines depend. The number of threads and the progress report are not
     /// among these settings, because they do not change the lines.
     fn settings(&self, work: &SceneWork) -> Settings {
-        let mut settings = vec![
-            ("drystone", env!("CARGO_PKG_VERSION").to_owned()),
-            ("--fields", work.fields.to_string()),
-            ("--margins", self.margins.described()),
-        ];
+        let mut settings =
+            vec![("drystone", env!("CARGO_PKG_VERSION").to_owned()), ("--fields", work.fields.to_string())];
         settings.extend(self.level.described());
+        settings.extend(self.ask.described());
         let (format, look) = match &work.drawn {
             None => ("none", "none".into()),
             Some(drawn) => {
@@ -239,7 +229,7 @@ impl Batch {
 /// The options with which every scene is analysed, drawn and written.
 struct SceneWork {
     level: AnalysisArgs,
-    margins: MarginArgs,
+    ask: AskArgs,
     fields: Fields,
     form: Form,
     drawn: Option<Arc<PictureOutput>>,
@@ -289,7 +279,10 @@ impl SceneWork {
             Ok(Err(problems)) => return Ok(self.refused(origin, &problems.list)),
             Err(late) => return Ok(self.refused(origin, &[Problem::alone(Code::NotReadable, late, "")])),
         };
-        let options = self.options(&level);
+        let options = match self.options(&level, &scene) {
+            Ok(options) => options,
+            Err(why) => return Ok(self.refused(origin, &[Problem::alone(Code::NotReadable, why, "")])),
+        };
         let is_plain = self.drawn.is_none() && options.accuracy != Accuracy::Exact;
         if is_plain && self.fields.are_few() && self.form == Form::Json {
             let found = verdicts(&scene, &options);
@@ -318,21 +311,11 @@ impl SceneWork {
         (line, ExitStatus::WrongInput)
     }
 
-    /// Returns the options of the analysis. Margins and the test of wedging are computed only if `--fields`,
-    /// `--margins` or `--wedging` requests them.
-    fn options(&self, level: &AnalysisArgs) -> Options {
-        let mut options = self.margins.add_to(level.options());
-        if self.fields.ask(&["frames", "margins"]) {
-            options.margins = true;
-        }
-        if self.fields.ask(&["frames", "only_by_wedging"]) {
-            options.wedging = true;
-        }
-        if self.fields.ask(&["frames", "placement"]) {
-            options.placement = true;
-        }
-        options.removable |= self.fields.ask(&["frames", "removable"]);
-        options
+    /// Returns the options of the analysis of a scene: the questions of the options, and those whose answers `--fields`
+    /// selects.
+    fn options(&self, level: &AnalysisArgs, scene: &Scene) -> Result<Options, String> {
+        let ask = self.ask.of(scene)?;
+        Ok(level.options().also(self.fields.questions().fold(ask, |ask, question| ask.with(question, scene))))
     }
 }
 

@@ -16,7 +16,7 @@ use crate::entry::cli::table::{self, Detail};
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::cli::verify;
 use crate::entry::request::CheckArgs;
-use crate::mechanics::analysis::{Analysis, Options, Verdict};
+use crate::mechanics::analysis::{Analysis, Question, Verdict};
 use crate::mechanics::scene::{Note, Scene};
 use crate::products::figure;
 use crate::products::result::{Layout, Timing, refusal, write_json};
@@ -126,14 +126,12 @@ impl Check {
         width: Option<usize>,
     ) -> Vec<Result<SceneResult, CliError>> {
         let progress = Progress::begin(sources.len(), terminal.shows_progress());
-        let options = self.what.base();
         let is_table = !self.json && !terminal.is_quiet();
         sources
             .par_iter()
             .map(|(_, source)| {
                 progress.doing(&source.name());
-                let answer =
-                    source::isolated(&source.path, || self.answer(source, &options, layout, width, is_table)).flatten();
+                let answer = source::isolated(&source.path, || self.answer(source, layout, width, is_table)).flatten();
                 progress.step();
                 answer
             })
@@ -143,7 +141,7 @@ impl Check {
     /// Applies the option `placed` to a scene, and refuses a scene that lacks a block of this option or of `capacity`.
     fn choose_blocks(&self, scene: &mut Scene) -> Result<(), String> {
         self.what.only_placed(scene)?;
-        self.what.capacity.add_to(Options::default(), scene).map(drop)
+        self.what.options(scene).map(drop)
     }
 
     /// Analyses one scene. Returns its exit status, the verdicts of its frames, and its JSON or its table; the other of
@@ -151,21 +149,20 @@ impl Check {
     fn answer(
         &self,
         source: &Source,
-        options: &Options,
         layout: Layout,
         width: Option<usize>,
         is_table: bool,
     ) -> Result<SceneResult, CliError> {
-        let mut options = self.what.capacity.add_to(*options, &source.scene)?;
+        let mut options = self.what.options(&source.scene)?;
         let detail = Detail {
             full: self.verbose.then_some(if self.no_timing { Timing::LeftOut } else { Timing::Included }),
-            margins: options.margins,
+            margins: options.ask.has(Question::Margins),
             ranges: self.explain.then_some(options),
         };
         // The table states the same margin as the line below a picture, if it takes little time.
-        if is_table && !options.margins && !options.verdict_only {
+        if is_table && !options.ask.has(Question::Margins) && !options.verdict_only {
             let kinds = figure::cheap_margins(&source.scene);
-            options = kinds.map_or(options, |kinds| options.margins(true).margin_kinds(kinds));
+            options = kinds.map_or(options, |kinds| options.margins(kinds));
         }
         let mut analysis = self.what.analysed(source.scene.clone(), &options);
         if let Some(output) = &self.certificate {

@@ -143,7 +143,8 @@ mod tests {
         let scene = crate::mechanics::scene::Scene::from_json(
             r#"{ "drystone": 1, "blocks": [{ "id": "a", "polygon": [[0, 0], [3, 0], [0, 2]] }] }"#,
         );
-        let options = crate::mechanics::analysis::Options { margins: true, ..Default::default() };
+        let options =
+            crate::mechanics::analysis::Options::default().margins(crate::mechanics::analysis::MarginKinds::ALL);
         crate::mechanics::analysis::Analysis::with(scene.expect("valid"), &options);
         thread::sleep(Duration::from_millis(300));
         drop(progress);

@@ -160,8 +160,7 @@ impl Render {
         })
     }
 
-    /// Refuses `--margin` and `--capacity` for figures that cannot show the requested margin or the capacity. Refuses
-    /// `--panels` and `--pages` for figures of one block and for standard output.
+    /// Refuses `--margin` for figures that cannot show the requested margin. Refuses `--panels` and `--pages` for figures of one block and for standard output.
     fn check_parts(&self, destination: &Destination) -> Result<(), CliError> {
         let is_stdout = matches!(destination, Destination::Stdout);
         let figure = &self.draw.figure;
@@ -170,8 +169,6 @@ impl Render {
         let shows_margin = kind == figure::Kind::Mechanism || kind.needs_sensitivity() || is_central;
         let why = if margin.is_some() && !shows_margin {
             "--margin selects the margin of a figure; add --kind mechanism or --kind sensitivity, or with kernel --kind joints"
-        } else if figure.capacity.capacity.is_some() && !kind.needs_capacity() {
-            "--capacity selects the block of a capacity figure; add --kind capacity"
         } else if self.writes_parts() && (kind.shows_one_block() || is_stdout) {
             "--panels and --pages write the parts of a figure to files; give a file or folder, and any kind but freebody"
         } else {
@@ -255,7 +252,7 @@ impl Render {
         let wrong = |why| CliError::CommandLine(format!("{}: {why}", source.name()));
         let options = &figure.for_scene(options, &source.scene).map_err(wrong)?;
         let scene = self.shown(source, format, fonts);
-        let analysis = figure.analysed(&scene, &figure.add_to(*analysis_options, &scene)?, options);
+        let analysis = figure.analysed(&scene, *analysis_options)?;
         progress.step();
         let mut summary = summary(&analysis);
         let falls = analysis.frames.iter().any(|frame| frame.verdict == Verdict::Unstable);

@@ -19,8 +19,8 @@ use crate::entry::cli::source::{self, Source};
 use crate::entry::cli::style_args::StyleArgs;
 use crate::entry::cli::terminal::Terminal;
 use crate::entry::cli::vary::{Ordinate, Varied};
-use crate::entry::request::AnalysisArgs;
-use crate::mechanics::analysis::{self, Analysis, MarginKind, MarginKinds};
+use crate::entry::request::{AnalysisArgs, AskArgs};
+use crate::mechanics::analysis::{Analysis, MarginKind, MarginKinds, Question};
 use crate::pictures::drawing::Theme;
 use crate::pictures::output::file::Existing;
 use crate::pictures::output::fonts::Fonts;
@@ -53,9 +53,6 @@ pub(crate) struct Report {
     /// from one SCENE as written to the same SCENE with --set
     #[arg(long, conflicts_with = "accuracy_study")]
     compare: bool,
-    /// Compute all margins; by default only those of loads, friction and tilt
-    #[arg(long)]
-    margins: bool,
     /// Add an appendix with all other results: all joints, effects, solver details, charts
     #[arg(long)]
     full: bool,
@@ -80,6 +77,8 @@ pub(crate) struct Report {
     strict: bool,
     #[command(flatten)]
     look: StyleArgs,
+    #[command(flatten)]
+    ask: AskArgs,
     #[command(flatten)]
     level: AnalysisArgs,
 }
@@ -202,18 +201,12 @@ impl Report {
         report_options: &ReportOptions,
         terminal: &Terminal,
     ) -> Result<TaskResults, CliError> {
-        let options = analysis::Options {
-            // As in `check`, JSON contains margins only if they were requested.
-            margins: self.margins || form != Form::Json,
-            margin_kinds: if self.margins { MarginKinds::ALL } else { MarginKinds::new(&DEFAULT_MARGINS) },
-            ..self.level.options()
-        };
         let progress = Progress::begin(tasks.len(), terminal.shows_progress());
         let numbered: Vec<(usize, &Task)> = tasks.iter().enumerate().collect();
         let one = |(number, task): &(usize, &Task)| {
             progress.doing(&task.name());
             let first = task.paths()[0];
-            let made = source::isolated(first, || self.describe(task, number + 1, form, report_options, &options));
+            let made = source::isolated(first, || self.describe(task, number + 1, form, report_options));
             progress.step();
             // If drystone itself fails on a scene, the overview lists this scene among the files that are not valid
             // scenes.
@@ -280,7 +273,6 @@ impl Report {
         number: usize,
         form: Form,
         report_options: &ReportOptions,
-        options: &analysis::Options,
     ) -> Result<TaskResult, CliError> {
         let mut read = match self.read(task) {
             Ok(read) => read,
@@ -299,8 +291,22 @@ impl Report {
                 source.scene = missing_glyphs::legible(&source.scene, &Fonts::default()).into();
             }
         }
-        let analyses: Vec<Analysis> =
-            read.iter().map(|source| Analysis::exact(source.scene.clone(), options)).collect();
+        let mut analyses = Vec::new();
+        for source in &read {
+            match self.ask.of(&source.scene) {
+                Ok(mut ask) => {
+                    // As in `check`, JSON contains margins only if they were requested.
+                    if form != Form::Json && !ask.has(Question::Margins) {
+                        ask.margins = MarginKinds::new(&DEFAULT_MARGINS);
+                    }
+                    analyses.push(Analysis::exact(source.scene.clone(), &self.level.options().also(ask)));
+                }
+                Err(why) => {
+                    let complaint = CliError::CommandLine(format!("{}: {why}", source.name()));
+                    return Ok(Err(vec![(refused(&source.path, &complaint), complaint)]));
+                }
+            }
+        }
         let ending = analyses.iter().map(ExitStatus::from_analysis).max();
         let Some(mut entry) = entry(&read, &analyses, report_options) else {
             return Ok(Err(Vec::new()));

@@ -11,7 +11,7 @@ use crate::mechanics::scene::{Limits, Scene};
 use crate::products::result::Timing;
 use crate::products::wording::number::{duration, letter, quantity, tenths};
 use crate::products::wording::question::{self, thrust_range};
-use crate::products::wording::{capacity, failure, margin, verdict};
+use crate::products::wording::{answer, failure, margin, verdict};
 use crate::text::heading;
 
 /// The words in the tables and in the lines below them, with their meanings.
@@ -357,22 +357,10 @@ fn remarks(analysis: &Analysis, number: usize, detail: &Detail, range: Option<&s
     if detail.margins {
         remarks.extend(margin::lines(solved));
     }
-    remarks.extend(frame.placement.as_ref().map(|p| format!("placement: {}", question::placement_sentence(solved, p))));
-    remarks.extend(question::movement_sentences(solved).into_iter().map(|words| format!("movement: {words}")));
-    let rows = frame.removable.iter();
-    remarks.extend(rows.map(|rows| format!("removable: {}", question::removable_phrases(scene, rows).join("; "))));
+    remarks.extend(answer::sentences(solved).iter().map(|(name, words)| format!("{name}: {words}")));
     let helped = frame.removable.iter().flat_map(|rows| question::removable_rows(scene, rows));
     let helped = helped.filter(|[_, may, _]| may.starts_with("while")).take(MAX_LISTED_FAILURES);
     remarks.extend(helped.map(|[block, may, _]| format!("removable: {block} {may}")));
-    remarks.extend(
-        frame.vehicle.as_ref().map(|influence| format!("vehicle: {}", question::vehicle_sentence(scene, influence))),
-    );
-    let carried = frame.capacity.iter();
-    remarks.extend(carried.map(|c| {
-        let governed = question::conditions(frame, c.edges.iter().map(|edge| edge.condition));
-        let governed = governed.map(|names| format!("; governed by {names}")).unwrap_or_default();
-        format!("capacity: {}{governed}", capacity::sentences(scene, frame.verdict, c))
-    }));
     remarks.extend(frame.notices.iter().map(|n| format!("note: {n}")));
     remarks
 }

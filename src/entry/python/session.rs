@@ -27,7 +27,7 @@ impl Session {
         // Check the text first, because only `Scene::from_json` reports the lines of problems.
         Scene::from_json(text).map_err(|problems| refused(py, problems, options.request.located))?;
         let file = SceneFile::from_json(text).map_err(|why| fault(py, &why.to_string()))?;
-        let inner = py.detach(|| session::Session::with(file, options.request.what.base()));
+        let inner = py.detach(|| session::Session::with(file, options.request.what.level.options()));
         let inner = inner.map_err(|error| complaint(py, error))?;
         Ok(Session { inner })
     }
@@ -91,11 +91,11 @@ impl Session {
             .collect()
     }
 
-    /// Analyses the placed blocks. The capacity, the contact tolerance, `notes` and `located` in
-    /// `options` have no effect.
-    fn analysis(&self, py: Python<'_>, options: &Options) -> Analysis {
+    /// Analyses the placed blocks. The contact tolerance, `notes` and `located` in `options` have no effect.
+    fn analysis(&self, py: Python<'_>, options: &Options) -> PyResult<Analysis> {
         let scene = self.inner.scene();
-        Analysis::new(py.detach(|| analysis::Analysis::exact(scene, &options.request.what.base())))
+        let options = options.request.what.options(scene).map_err(|why| fault(py, &in_json(&why)))?;
+        Ok(Analysis::new(py.detach(|| analysis::Analysis::exact(scene, &options))))
     }
 
     /// Computes all forces that a placed block can carry, and returns them as JSON. `typed` and `for_all` are written

@@ -68,8 +68,7 @@ impl PageArgs {
             return self.svg(figure::broken(&sketch, &self.options()?));
         }
         let scene = level.scene(text, self.frame)?;
-        let options = self.figure.add_to(level.options(), &scene).map_err(Refused::from)?;
-        self.page(&self.figure.analysed(&scene, &options, &self.options()?))
+        self.page(&self.figure.analysed(&scene, level.options()).map_err(Refused::from)?)
     }
 
     /// Draws an existing analysis as SVG. If the figure shows results that the analysis lacks, the scene is analysed

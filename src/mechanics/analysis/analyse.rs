@@ -102,7 +102,7 @@ pub(super) fn analyse_frame(context: &FrameContext, options: Options, known: &mu
     let before = seconds();
     let wedging = find_wedging(context.scene, &mut analysis, &solved, options);
     let after = seconds();
-    if options.wedging {
+    if options.ask.wedging {
         analysis.solve.stages.wedging = after - before;
     }
     let decided_count = find_margins(context.scene, &mut analysis, &solved, options, &mut known.margins);
@@ -112,7 +112,7 @@ pub(super) fn analyse_frame(context: &FrameContext, options: Options, known: &mu
     analysis.sensitivity = find_sensitivity(context, &analysis, &solved, options, &known.margins);
     analysis.effects.push(report::margins(decided_count));
     analysis.effects.push(report::wedging(wedging));
-    if options.placement {
+    if options.ask.placement {
         let before = seconds();
         if analysis.verdict == Verdict::Stable {
             let components = solved.iter().map(|s| s.component);
@@ -178,7 +178,7 @@ fn combine(
 /// If `options` request it, checks whether a stable frame stands only by wedging. Writes the answer to `analysis`, and
 /// returns the outcome for the effect report.
 fn find_wedging(scene: &Scene, analysis: &mut FrameAnalysis, solved: &[SolvedComponent], options: Options) -> Wedging {
-    match (options.wedging, analysis.verdict) {
+    match (options.ask.wedging, analysis.verdict) {
         (false, _) => Wedging::NotRequested,
         (true, Verdict::Stable) => {
             let components = solved.iter().map(|s| (s.component, s.findings));
@@ -199,7 +199,10 @@ fn find_margins(
     options: Options,
     known: &mut BTreeMap<Key, Margins>,
 ) -> Option<usize> {
-    let kinds = options.wanted_margins()?;
+    let kinds = options.ask.with_needed().margins;
+    if kinds.is_empty() {
+        return None;
+    }
     let parts = solved.iter().map(|s| Part { component: s.component, key: s.key, findings: s.findings });
     let parts: Vec<Part> = parts.collect();
     let (margins, decided_count) = margin::find_margins(&parts, kinds, known);
@@ -226,7 +229,7 @@ fn find_sensitivity(
     options: Options,
     known: &BTreeMap<Key, Margins>,
 ) -> Option<Sensitivity> {
-    let kind = options.sensitivity?;
+    let kind = options.ask.sensitivity?;
     let margins = analysis.margins.as_ref()?;
     let parts = solved.iter().map(|s| sensitivity::Part {
         component: s.component,

@@ -169,7 +169,7 @@ impl Analysis {
         for (k, source) in source.into_iter().enumerate() {
             (frames[k], scenes[k]) = (frames[source].clone(), scenes[source].clone());
         }
-        Analysis { given: scene, of_frames: scenes, frames, notes }
+        Analysis { given: scene, of_frames: scenes, frames, options: *options, notes }
     }
 }
 

@@ -9,7 +9,7 @@
 //! short contacts carry force. If the scene gives a tolerance, none of this is checked.
 
 use super::analyse::{analyse, analyse_frames};
-use super::{FrameAnalysis, Options, UndecidedReason, Verdict};
+use super::{Ask, FrameAnalysis, Options, UndecidedReason, Verdict};
 use crate::geometry::Point;
 use crate::mechanics::scene::{BodyId, Frame, Note, NoteCode, Penetration, Scene, ToleranceSource, size};
 use crate::mechanics::statics::interface::{
@@ -113,7 +113,7 @@ fn closed_verdicts(
     widest: f64,
     options: &Options,
 ) -> Vec<(f64, Vec<FrameAnalysis>)> {
-    let options = without_extras(options);
+    let options = Options { ask: Ask::NOTHING, ..*options };
     let closed = |closing: f64| (closing, analyse(&scene.closed(closing), &options).1);
     let mut all = vec![closed(CLOSING_FACTOR * widest)];
     let is_unchanged = |((frame, other), places): ((&FrameAnalysis, &FrameAnalysis), &Vec<AmbiguousPlace>)| {
@@ -155,11 +155,6 @@ fn compare_verdicts(scene: &Scene, frame: &mut FrameAnalysis, places: &[Ambiguou
     }
 }
 
-/// Returns the options for the second analysis, which computes no margins and no placement tolerance and does not check wedging.
-fn without_extras(options: &Options) -> Options {
-    Options { margins: false, wedging: false, placement: false, ..*options }
-}
-
 fn is_undecided(verdict: Verdict) -> bool {
     verdict == Verdict::Undecided
 }
@@ -183,7 +178,7 @@ fn recheck_with_slivers(scene: &Scene, interfaces: &Interfaces, frames: &mut [Fr
     if interfaces.slivers.is_empty() || !falls {
         return;
     }
-    let options = without_extras(options);
+    let options = Options { ask: Ask::NOTHING, ..*options };
     let others = analyse_frames(scene, &interfaces.with_slivers(), &options);
     for ((frame, other), scene_frame) in frames.iter_mut().zip(&others).zip(&scene.frames) {
         if [frame.verdict, other.verdict] != [Verdict::Unstable, Verdict::Stable] {

@@ -6,6 +6,7 @@
 //! components of a frame.
 
 mod analyse;
+mod ask;
 mod capacity;
 mod cases;
 mod decide;
@@ -50,6 +51,7 @@ pub use crate::mechanics::statics::interface::{ContactKind, Interface};
 pub use crate::mechanics::statics::resultant::Resultant;
 pub use crate::mechanics::wedge::Slide;
 pub(crate) use acting::{ActingForce, ForceKind, acting_forces, by_block};
+pub use ask::{Ask, Question};
 pub(crate) use capacity::capacity_of;
 #[cfg(any(feature = "cli", feature = "wasm"))]
 pub(crate) use capacity::typed_capacity;
@@ -144,6 +146,8 @@ pub struct Analysis {
     of_frames: Vec<Arc<Scene>>,
     /// One entry per frame of the scene, in order. Frames in the same state share their results.
     pub frames: Vec<Arc<FrameAnalysis>>,
+    /// How the scene was analysed, and what was asked.
+    options: Options,
     /// Notes on things that are allowed but seldom intended: the notes of the scene, and notes on gaps that are
     /// nearly contacts.
     pub notes: Vec<Note>,
@@ -306,13 +310,18 @@ impl Analysis {
         let notes = gaps_closed::notes(&once, &interfaces);
         let frames = repeat::with_repeats(frames, &source);
         if governing.iter().all(Option::is_none) {
-            return Analysis { given: scene, of_frames: Vec::new(), frames, notes };
+            return Analysis { given: scene, of_frames: Vec::new(), frames, options: *options, notes };
         }
         let own = (0..source.len()).filter(|number| source[*number] == *number);
         let scenes: BTreeMap<usize, Arc<Scene>> =
             own.zip(governing).map(|(number, under)| (number, under.unwrap_or_else(|| scene.clone()))).collect();
         let of_frames = source.iter().map(|source| scenes[source].clone()).collect();
-        Analysis { given: scene, of_frames, frames, notes }
+        Analysis { given: scene, of_frames, frames, options: *options, notes }
+    }
+
+    /// Returns how the scene was analysed, and what was asked.
+    pub fn options(&self) -> &Options {
+        &self.options
     }
 
     /// Returns the worst verdict of all frames; stable if there are no frames.

@@ -1,10 +1,11 @@
-//! [`Options`]: how accurate an analysis must be, and what it computes in addition to the verdict.
+//! [`Options`]: how an analysis is made, and what it is asked.
 //!
 //! The accuracy changes the cost of a verdict and the strength of its proof. No accuracy allows a verdict without a
 //! proof.
 
 use std::time::Duration;
 
+use super::ask::Ask;
 use super::capacity::CapacityRequest;
 use super::margin::{MarginKind, MarginKinds};
 use crate::clock::Instant;
@@ -13,6 +14,19 @@ use crate::mechanics::solve::{Choice, Conditioning, SolverSettings, TOLERANCE};
 
 /// So long after the deadline, closed forms end too. One takes less than a thousandth of a second for most components.
 const OVERDUE: Duration = Duration::from_millis(100);
+
+/// Defines one setter method for each listed field of [`Ask`].
+macro_rules! asking {
+    ($($field:ident: $type:ty, $doc:literal;)*) => {
+        $(
+            #[doc = $doc]
+            pub fn $field(mut self, $field: impl Into<$type>) -> Self {
+                self.ask.$field = $field.into();
+                self
+            }
+        )*
+    };
+}
 
 /// The options of an analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,21 +37,8 @@ pub struct Options {
     /// A solver tolerance that replaces the tolerance of `accuracy`. Benchmarks use it to measure how the tolerance
     /// changes the computing time.
     pub tolerance: Option<f64>,
-    /// Whether to compute how far each frame is from its limit of stability.
-    pub margins: bool,
-    /// The margins to compute, if margins are requested; by default all.
-    pub margin_kinds: MarginKinds,
-    /// The margin whose derivatives are computed, if any. The margin itself is computed too.
-    pub sensitivity: Option<MarginKind>,
-    /// The request to compute all forces that a block can carry, if any.
-    pub capacity: Option<CapacityRequest>,
-    /// Whether to check if a stable frame stands only by wedging.
-    pub wedging: bool,
-    /// Whether to compute how accurately the blocks of a stable frame must be placed.
-    pub placement: bool,
-    /// Whether to find out which blocks may leave a frame ([`FrameAnalysis::removable`](super::FrameAnalysis::removable)).
-    /// Takes one verdict for each block, and some programs for each block without which the rest falls.
-    pub removable: bool,
+    /// What is asked beyond the verdict.
+    pub ask: Ask,
     /// Whether to compute only the verdict and its proof. If a frame falls, its failures are not computed. If it
     /// stands, the forces balance, but their sum may not be the least. The result states this.
     pub verdict_only: bool,
@@ -75,32 +76,35 @@ impl Accuracy {
 impl Options {
     setters! {
         accuracy: Accuracy, "How strong the proof of a verdict must be.";
-        margins: bool, "Whether to compute how far each frame is from its limit of stability.";
-        margin_kinds: MarginKinds, "The margins to compute, if margins are requested.";
-        wedging: bool, "Whether to check if a stable frame stands only by wedging.";
-        removable: bool, "Whether to find out which blocks may leave a frame, and how hard robots must hold.";
-        placement: bool, "Whether to compute how accurately the blocks of a stable frame must be placed.";
+        ask: Ask, "What is asked beyond the verdict.";
         verdict_only: bool, "Whether to compute only the verdict and its proof.";
     }
 
     optional_setters! {
-        sensitivity: MarginKind, "The margin whose derivatives are computed.";
-        capacity: CapacityRequest, "The request to compute all forces that a block can carry.";
         tolerance: f64, "A solver tolerance that replaces the tolerance of `accuracy`.";
         deadline: Instant, "The time at which the analysis stops.";
+    }
+
+    asking! {
+        margins: MarginKinds, "Asks for these margins.";
+        sensitivity: Option<MarginKind>, "Asks for the derivatives of a margin.";
+        capacity: Option<CapacityRequest>, "Asks for all forces that a block can carry.";
+        wedging: bool, "Asks whether a stable frame stands only by wedging.";
+        placement: bool, "Asks how accurately the blocks of a stable frame must be placed.";
+        removable: bool, "Asks which blocks may leave a frame, and how hard robots must hold.";
+    }
+
+    /// Asks for what another request asks, too.
+    #[must_use]
+    pub fn also(self, ask: Ask) -> Options {
+        Options { ask: self.ask.and(ask), ..self }
     }
 
     /// The verdict with its proof, forces and failures, and nothing else.
     pub(super) const PLAIN: Options = Options {
         accuracy: Accuracy::Standard,
         tolerance: None,
-        margins: false,
-        margin_kinds: MarginKinds::ALL,
-        sensitivity: None,
-        capacity: None,
-        wedging: false,
-        placement: false,
-        removable: false,
+        ask: Ask::NOTHING,
         verdict_only: false,
         deadline: None,
     };
@@ -113,17 +117,6 @@ impl Options {
             verdict_only: true,
             deadline: self.deadline,
             ..Options::PLAIN
-        }
-    }
-
-    /// Returns the margins to compute: the requested margins, and the margin whose derivatives are requested. `None` if
-    /// neither is requested.
-    pub(super) fn wanted_margins(self) -> Option<MarginKinds> {
-        let requested = self.margins.then_some(self.margin_kinds);
-        match (requested, self.sensitivity) {
-            (kinds, None) => kinds,
-            (None, Some(kind)) => Some(MarginKinds::new(&[kind])),
-            (Some(kinds), Some(kind)) => Some(kinds.with(kind)),
         }
     }
 

@@ -76,7 +76,7 @@ const MAX_TOGETHER: usize = 100_000;
 
 /// Finds out for each frame which blocks may leave it, if the options request it.
 pub(super) fn add_removables(scene: &Scene, interfaces: &Interfaces, frames: &mut [FrameAnalysis], options: &Options) {
-    if !options.removable {
+    if !options.ask.removable {
         return;
     }
     for (frame, found) in scene.frames.iter().zip(frames) {

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::condition::Condition;
-use super::{Analysis, FrameAnalysis, position};
+use super::{Analysis, FrameAnalysis, Options, position};
 use crate::mechanics::scene::{Frame, Scene};
 
 /// A frame of an analysis, with its results and the scene to which they belong.
@@ -38,7 +38,7 @@ impl<'a> SolvedFrame<'a> {
 impl Analysis {
     /// Returns an analysis without notes, of a scene whose frames have these results.
     pub(crate) fn of_parts(scene: impl Into<Arc<Scene>>, frames: Vec<Arc<FrameAnalysis>>) -> Analysis {
-        Analysis { given: scene.into(), of_frames: Vec::new(), frames, notes: Vec::new() }
+        Analysis { given: scene.into(), of_frames: Vec::new(), frames, options: Options::default(), notes: Vec::new() }
     }
 
     /// Returns the scene as its author wrote it, with its load cases and its vehicle. Results of a frame may belong to other
@@ -100,7 +100,8 @@ impl Analysis {
         let frames = vec![self.frames.get(number)?.clone()];
         let given = self.given.alone(number)?.into();
         let own = self.of_frames.get(number).and_then(|scene| scene.alone(number));
-        Some(Analysis { given, of_frames: own.into_iter().map(Arc::new).collect(), frames, notes: self.notes.clone() })
+        let of_frames = own.into_iter().map(Arc::new).collect();
+        Some(Analysis { given, of_frames, frames, options: self.options, notes: self.notes.clone() })
     }
 
     /// Changes the scene as it was given, and the scenes of all frames, in the same way, such as the names in them.

@@ -126,7 +126,7 @@ pub(super) fn decide_under_vehicle(
         let mut worst_position = None;
         if let Some((_, own, loaded, alone)) = worst {
             let under = UnderVehicle { position: influence.is_some().then_some(own), alone: found.verdict };
-            let asked = Options { removable: false, ..*options };
+            let asked = options.removable(false);
             if let Some(results) = Analysis::decide(alone.into(), &asked).frames.pop() {
                 *found = Arc::unwrap_or_clone(results);
                 answers.also(Answers::of(found, Condition { case: None, position: under.position }));
@@ -135,9 +135,9 @@ pub(super) fn decide_under_vehicle(
                 governing[number] = Some(loaded);
             }
         }
-        let has_others = options.placement || options.capacity.is_some() || options.wedging;
-        if options.wanted_margins().is_some() || has_others {
-            let asked = Options { removable: false, ..*options };
+        let has_others = options.ask.placement || options.ask.capacity.is_some() || options.ask.wedging;
+        if !options.ask.with_needed().margins.is_empty() || has_others {
+            let asked = options.removable(false);
             // The worst positions come first: their answers are seldom changed by others.
             let factor = |own: &usize| influence.as_ref().and_then(|line| line.positions[*own].factor);
             let mut order: Vec<usize> = (0..count).filter(|own| worst_position != Some(*own)).collect();
@@ -150,7 +150,7 @@ pub(super) fn decide_under_vehicle(
                     let _until = DeadlineGuard::new(options.deadline);
                     let loaded = with_axles(scene, &bare, vehicle, &positions[*own]).unwrap_or_else(|| bare.clone());
                     let there = with_axle_loads(whole, vehicle, &positions[*own]);
-                    options.wedging || is_late() || !answers.hold_for(&there, &loaded)
+                    options.ask.wedging || is_late() || !answers.hold_for(&there, &loaded)
                 };
                 #[cfg(feature = "parallel")]
                 let next = rest.par_iter().position_first(changes);

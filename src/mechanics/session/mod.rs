@@ -266,7 +266,7 @@ impl Session {
     /// # Ok::<(), drystone::session::SessionError>(())
     /// ```
     pub fn margins(&self, kinds: MarginKinds) -> Option<Margins> {
-        let options = self.options.margins(true).margin_kinds(kinds);
+        let options = self.options.margins(kinds);
         Analysis::with(&self.scene, &options).frames.first()?.margins.clone()
     }
 

@@ -13,14 +13,12 @@ use super::panel::{About, Figure};
 use super::sensitivity::CornerEffects;
 use super::structure::Structure;
 use super::thrust::ThrustLine;
-use crate::mechanics::analysis::{self, Analysis, MarginKind, MarginKinds};
 #[cfg(any(feature = "cli", feature = "wasm"))]
-use crate::mechanics::analysis::{CapacityRequest, Sensitivity};
-#[cfg(any(feature = "python", feature = "wasm"))]
-use crate::mechanics::analysis::{FrameAnalysis, Verdict};
+use crate::mechanics::analysis;
+use crate::mechanics::analysis::{Analysis, Ask, MarginKind, MarginKinds, Question};
+use crate::mechanics::scene::Scene;
 #[cfg(any(feature = "cli", feature = "wasm"))]
-use crate::mechanics::scene::Frame;
-use crate::mechanics::scene::{BlockId, Scene};
+use crate::mechanics::scene::{BlockId, Frame};
 use crate::pictures::drawing::style::ForceMarks;
 use crate::text::Word;
 
@@ -159,58 +157,41 @@ impl Kind {
         (!kinds.is_empty()).then(|| MarginKinds::new(kinds))
     }
 
-    /// Analyses a scene, and also computes the results that a figure of this kind shows: margins, the sensitivity of a
-    /// margin, or the forces that a block can carry. If `analysis_options` names no margin or no block, the default of
-    /// the scene is used. If the line of the verdict of this figure gives a margin, the analysis also computes the
-    /// margins, provided that they are cheap.
+    /// Returns what a user asks about a scene together with what a figure of this kind needs. A margin or a block that
+    /// is needed, but not named, is the default of the scene.
+    pub fn asks(self, scene: &Scene, user: Ask, options: &Options) -> Ask {
+        let needs = [
+            (Question::Placement, self == Kind::Mechanism && options.at == Some(At::Placement)),
+            (Question::Sensitivity, self.needs_sensitivity()),
+            (Question::Capacity, self.needs_capacity()),
+        ];
+        let needed = needs.into_iter().filter(|(_, is_needed)| *is_needed);
+        let mut ask = needed.fold(user, |ask, (question, _)| ask.with(question, scene));
+        ask.margins = self.needed_margin(options).map_or(ask.margins, |kind| ask.margins.with(kind));
+        ask
+    }
+
+    /// Analyses a scene for a figure of this kind. If the line of the verdict gives a margin, the margins are computed too,
+    /// provided that they are cheap.
     #[cfg(any(feature = "cli", feature = "wasm"))]
-    pub(crate) fn analysed(self, scene: &Scene, analysis_options: &analysis::Options, options: &Options) -> Analysis {
-        let mut analysis_options = *analysis_options;
-        if let Some(kinds) = self.line_margins(scene, options).filter(|_| !analysis_options.margins) {
-            analysis_options = analysis_options.margins(true).margin_kinds(kinds);
+    pub(crate) fn analysed(
+        self,
+        scene: &Scene,
+        mut analysis_options: analysis::Options,
+        options: &Options,
+    ) -> Analysis {
+        let is_asked = !analysis_options.ask.margins.is_empty();
+        if let Some(kinds) = self.line_margins(scene, options).filter(|_| !is_asked) {
+            analysis_options = analysis_options.margins(kinds);
         }
-        if let Some(kind) = self.needed_margin(options) {
-            analysis_options.margin_kinds = if analysis_options.margins {
-                analysis_options.margin_kinds.with(kind)
-            } else {
-                MarginKinds::new(&[kind])
-            };
-            analysis_options.margins = true;
-        }
-        analysis_options.placement |= self.needs_placement(options);
-        if self.needs_sensitivity() && analysis_options.sensitivity.is_none() {
-            analysis_options.sensitivity = Some(Sensitivity::default_kind(scene));
-        }
-        if self.needs_capacity() && analysis_options.capacity.is_none() {
-            analysis_options.capacity = CapacityRequest::default_for(scene);
-        }
+        analysis_options.ask = self.asks(scene, analysis_options.ask, options);
         let analysis = Analysis::exact(scene, &analysis_options);
         match self.stated_margins(&analysis) {
-            Some(kinds) if !analysis_options.margins => {
-                Analysis::exact(scene, &analysis_options.margins(true).margin_kinds(kinds))
+            Some(kinds) if analysis_options.ask.margins.is_empty() => {
+                Analysis::exact(scene, &analysis_options.margins(kinds))
             }
             _ => analysis,
         }
-    }
-
-    /// True if the analysis lacks results that a figure of this kind needs, or has the sensitivity of another margin
-    /// than `analysis_options` names. If `analysis_options` requests the forces that a block can carry, and the figure
-    /// needs them, the result is always true.
-    #[cfg(any(feature = "python", feature = "wasm"))]
-    pub(crate) fn lacks(self, analysis: &Analysis, analysis_options: &analysis::Options, options: &Options) -> bool {
-        let frames = &analysis.frames;
-        let capacity = || analysis_options.capacity.is_none() && frames.iter().any(|f| f.capacity.is_some());
-        let sensitivity = || {
-            let kind = frames.iter().find_map(|f| Some(f.sensitivity.as_ref()?.kind));
-            kind.is_some() && (analysis_options.sensitivity.is_none() || analysis_options.sensitivity == kind)
-        };
-        let lacks = |found: &FrameAnalysis, kind| found.margins.as_ref().and_then(|margins| margins.of(kind)).is_none();
-        let placement = |found: &FrameAnalysis| found.placement.is_some() || found.verdict != Verdict::Stable;
-        self.needed_margin(options).is_some_and(|kind| frames.iter().any(|found| lacks(found, kind)))
-            || self.needs_placement(options) && !frames.iter().all(|found| placement(found))
-            || analysis_options.removable && frames.iter().any(|found| found.removable.is_none())
-            || self.needs_capacity() && !capacity()
-            || self.needs_sensitivity() && !sensitivity()
     }
 
     /// Returns the margin without which the figure is not complete: that of the motion which it shows, or of the forces.
@@ -222,19 +203,14 @@ impl Kind {
         }
     }
 
-    /// True if the figure shows how the structure falls with errors of placement.
-    fn needs_placement(self, options: &Options) -> bool {
-        self == Kind::Mechanism && options.at == Some(At::Placement)
-    }
-
     /// True if the figure needs the forces that a block can carry. The analysis computes them only on request
-    /// ([`analysis::Options::capacity`](crate::mechanics::analysis::Options::capacity)).
+    /// ([`analysis::Ask::capacity`](crate::mechanics::analysis::Ask::capacity)).
     pub fn needs_capacity(self) -> bool {
         self.about().needs_capacity
     }
 
     /// True if the figure needs the derivatives of a margin. The analysis computes them only on request
-    /// ([`analysis::Options::sensitivity`](crate::mechanics::analysis::Options::sensitivity)).
+    /// ([`analysis::Ask::sensitivity`](crate::mechanics::analysis::Ask::sensitivity)).
     pub fn needs_sensitivity(self) -> bool {
         self.about().needs_sensitivity
     }

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::json::{Json, compact, object};
 use super::key::{KEYS, Key, Type};
 use super::{Result, Timing};
-use crate::mechanics::analysis::{Analysis, Verdict};
+use crate::mechanics::analysis::{Analysis, Question, Verdict};
 use crate::text;
 
 /// The origin of a scene in a batch: its file, and its line in this file.
@@ -58,6 +58,16 @@ impl Default for Fields {
     }
 }
 
+/// The key of a frame with the answer to each question.
+const ANSWERS: [(Question, &str); 6] = [
+    (Question::Margins, "margins"),
+    (Question::Sensitivity, "sensitivity"),
+    (Question::Capacity, "capacity"),
+    (Question::Wedging, "only_by_wedging"),
+    (Question::Placement, "placement"),
+    (Question::Removable, "removable"),
+];
+
 /// A name that is not a field.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("there is no field {typed}{}", match near { Some(near) => format!("; did you mean {near}?"), None => String::new() })]
@@ -103,33 +113,18 @@ impl Fields {
         self.chosen.iter().any(within)
     }
 
-    /// Selects, in addition, the margins of every frame, unless some margins are already selected.
-    #[must_use]
-    pub fn with_margins(self) -> Fields {
-        self.with(&["frames", "margins"])
+    /// Returns the questions whose answers are selected.
+    pub fn questions(&self) -> impl Iterator<Item = Question> {
+        ANSWERS.into_iter().filter(|(_, key)| self.ask(&["frames", key])).map(|(question, _)| question)
     }
 
-    /// Selects, in addition, the field that states whether a frame stands only by wedging.
+    /// Selects, in addition, the answers to all questions that are asked, unless parts of them are already selected.
     #[must_use]
-    pub fn with_wedging(self) -> Fields {
-        self.with(&["frames", "only_by_wedging"])
-    }
-
-    /// Selects, in addition, the placement tolerance of every frame.
-    #[must_use]
-    pub fn with_placement(self) -> Fields {
-        self.with(&["frames", "placement"])
-    }
-
-    /// Selects, in addition, which blocks of every frame may leave.
-    #[must_use]
-    pub fn with_removable(self) -> Fields {
-        self.with(&["frames", "removable"])
-    }
-
-    fn with(mut self, path: &[&'static str]) -> Fields {
-        if !self.ask(path) {
-            self.chosen.push(path.to_vec());
+    pub fn answering(mut self, is_asked: impl Fn(Question) -> bool) -> Fields {
+        for (_, key) in ANSWERS.into_iter().filter(|(question, _)| is_asked(*question)) {
+            if !self.ask(&["frames", key]) {
+                self.chosen.push(vec!["frames", key]);
+            }
         }
         self
     }

@@ -5,6 +5,8 @@
 //! names from scene files. Code that writes them to an output escapes them with the function for that format in
 //! [`text`](crate::text).
 
+#[cfg(any(feature = "report", feature = "cli"))]
+pub mod answer;
 pub mod capacity;
 pub mod failure;
 pub mod margin;

@@ -1,7 +1,7 @@
 //! Certificates with a factor on the friction, and with corners that carry force on edges.
 
 use drystone::Scene;
-use drystone::analysis::Options;
+use drystone::analysis::{MarginKinds, Options};
 use drystone::certificate::Certificate;
 use drystone::starter::Ladder;
 use serde_json::{Value, json};
@@ -12,7 +12,7 @@ use super::{by_python, certificate, proved, proved_by_python};
 fn factors_on_friction_and_corners_on_edges_are_exact_for_both_checkers() {
     let ladders = [(0.7, 0.0), (0.3, 0.2), (0.31, 0.17)].map(|(friction, wall_friction)| {
         let file = Ladder { friction, wall_friction, angle: 57.0, ..Ladder::default() }.scene();
-        certificate(&Scene::new(file).expect("sound"), &Options::default().margins(true))
+        certificate(&Scene::new(file).expect("sound"), &Options::default().margins(MarginKinds::ALL))
     });
     for own in &ladders {
         let text = own.to_json();

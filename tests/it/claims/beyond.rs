@@ -1,6 +1,6 @@
 //! The motions that a result lists for the frame just beyond each end of its margins.
 
-use drystone::analysis::Options;
+use drystone::analysis::{MarginKinds, Options};
 use serde_json::{Value, json};
 
 use super::{Checked, check, check_with, cross, dot, less, list, number, pair};
@@ -170,7 +170,7 @@ fn motions_just_beyond_a_margin_are_those_of_the_changed_scene() {
     pushed["loads"] = json!([{ "block": "4", "force": [1.0, 0.0], "at": [1.0, 0.75] }]);
     let mut held = on_slope(35.0, 2.0, 1.0, 0.2, 0.1);
     held["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 9, "torque": 9 } }]);
-    let options = Options::default().margins(true);
+    let options = Options::default().margins(MarginKinds::ALL);
     let mut seen = 0;
     for file in [arch(11, 0.3, 0.7), wall(4, 3), harmonic(4, 0.9), pushed, held] {
         let mut beyond = Beyond { checked: check_with(&file, &options), seen: 0 };
@@ -226,7 +226,7 @@ fn a_scene_with_an_empty_interval_falls_at_each_value_by_a_listed_motion() {
     let turns: Vec<f64> = (0..72).map(|k| 5.0 * f64::from(k) - 178.7).collect();
     let (mut seen, mut pairs) = (Vec::new(), 0);
     for file in hopeless() {
-        let this = Beyond { checked: check_with(&file, &Options::default().margins(true)), seen: 0 };
+        let this = Beyond { checked: check_with(&file, &Options::default().margins(MarginKinds::ALL)), seen: 0 };
         let margins = this.checked.json["frames"][0]["margins"].clone();
         let excluded = &margins["excluded"];
         let friction = |mu: f64| this.with("friction", json!(mu));

@@ -20,7 +20,7 @@ fn margins_agree_with_verdicts_on_either_side() {
     held["robots"] = json!([{ "id": "r", "holds": "a", "limits": { "fx": 9, "fy": 0.1, "torque": 9 } }]);
     let mut compared = 0;
     for file in [arch(11, 0.3, 0.7), wall(4, 3), harmonic(4, 0.9), pushed, held] {
-        let options = Options::default().margins(true);
+        let options = Options::default().margins(MarginKinds::ALL);
         let json = check_with(&file, &options).json;
         let margins = &json["frames"][0]["margins"];
         let mut agrees = |margin: &Value, more_is_worse: bool, change: &dyn Fn(f64) -> Value| {
@@ -109,7 +109,7 @@ fn assert_margins_are_ends(margins: &Value) {
 /// The text of a figure `--kind mechanism --at load-factor` states the interval of the result, whether or not the frame stands as it is.
 #[test]
 fn the_figure_of_a_margin_states_the_interval_of_the_result() {
-    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::LoadFactor]));
+    let options = Options::default().margins(MarginKinds::new(&[MarginKind::LoadFactor]));
     // A plank overhangs its support; the load is a counterweight of which at least a third is needed.
     let plank = json!({ "drystone": 1, "friction": 0.7,
         "ground": [{ "polygon": [[0, -1], [4, -1], [4, 0], [0, 0]] }],

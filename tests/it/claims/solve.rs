@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use drystone::Analysis;
-use drystone::analysis::Options;
+use drystone::analysis::{MarginKinds, Options};
 use drystone::internals::solve::{Conditioning, balance};
 use drystone::result::{Layout, Timing, to_json};
 use serde_json::{Value, json};
@@ -151,7 +151,9 @@ fn groups_of_an_earlier_frame_are_reused_and_cost_no_program() {
 #[test]
 fn times_do_not_exceed_the_time_of_the_call() {
     let file = arch(11, 0.3, 0.7);
-    for (requested, options) in [(false, Options::default()), (true, Options::default().margins(true).wedging(true))] {
+    for (requested, options) in
+        [(false, Options::default()), (true, Options::default().margins(MarginKinds::ALL).wedging(true))]
+    {
         let start = Instant::now();
         let analysis = Analysis::with(scene(&file), &options);
         let took = start.elapsed().as_secs_f64();

@@ -1,7 +1,7 @@
 //! Figures as wide as one or two columns of a journal: labels do not lie on other texts, and texts are not cut or too
 //! small.
 
-use drystone::analysis::{Analysis, MarginKind};
+use drystone::analysis::{Analysis, MarginKind, MarginKinds};
 use drystone::drawing::{Group, Text};
 use drystone::figure::{self, Options};
 
@@ -23,7 +23,7 @@ fn no_label_lies_on_another_or_on_a_title_and_no_words_are_cut_or_tiny_in_any_ki
     let mut count = 0;
     let mut complaints = Vec::new();
     for (name, scene) in gallery().into_iter().chain(contributed()) {
-        let options = drystone::analysis::Options::default().margins(true);
+        let options = drystone::analysis::Options::default().margins(MarginKinds::ALL);
         let analysis = Analysis::with(&scene, &options);
         for width in [COLUMN, TWO_COLUMNS] {
             for (kind, options) in views() {

@@ -45,7 +45,7 @@ fn a_robot_needs_only_the_force_and_torque_of_its_block() {
 fn robot_limits_that_may_be_zero_are_found_in_groups() {
     let mut file = on_floor(0.5, vec![block("a", rectangle(0.0, 3.0, 1.0, 1.0), 8.0)]);
     let robot = |limit: f64| json!({ "holds": "a", "at": [0.5, 3.5], "limits": { "force": limit, "torque": 1 } });
-    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Robots]));
+    let options = Options::default().margins(MarginKinds::new(&[MarginKind::Robots]));
     // The margins of the robots, and the number of verdicts that were computed for them.
     let robot_margins = |file: &Value| {
         let frame = Analysis::with(scene(file), &options).frames.remove(0);

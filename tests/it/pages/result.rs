@@ -163,8 +163,8 @@ fn sums_lengths_and_shares_are_as_the_page_says() {
 #[test]
 fn requested_values_are_present_and_others_are_not() {
     let plain = Options::default();
-    let some = Options::default().margins(true).margin_kinds(MarginKinds::new(&[MarginKind::Friction]));
-    let all = Options::default().margins(true).wedging(true);
+    let some = Options::default().margins(MarginKinds::new(&[MarginKind::Friction]));
+    let all = Options::default().margins(MarginKinds::ALL).wedging(true);
     let stands = on_floor(0.7, vec![block("a", rectangle(0.0, 0.0, 1.0, 1.0), 1.0)]);
     let mut narrow = stands.clone();
     narrow["blocks"][0]["polygon"] = rectangle(0.0, 0.005, 1.0, 1.0);

@@ -1,6 +1,6 @@
 //! A scene in millimetres and kilonewtons has the same results as one in metres and newtons, each in its own units.
 
-use drystone::analysis::{Analysis, Options};
+use drystone::analysis::{Analysis, MarginKinds, Options};
 use drystone::figure::{self, Kind};
 use drystone::output;
 use drystone::result::{Layout, Timing, to_json};
@@ -32,7 +32,7 @@ fn lintel(length: f64, force: f64, units: Value) -> Value {
 
 fn analysis(file: &Value) -> Analysis {
     let scene = Scene::from_json(&file.to_string()).expect("sound");
-    Analysis::with(&scene, &Options::default().margins(true))
+    Analysis::with(&scene, &Options::default().margins(MarginKinds::ALL))
 }
 
 fn assert_near(a: &Value, b: &Value, at: &str) {

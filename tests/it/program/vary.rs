@@ -310,7 +310,7 @@ fn what_cannot_be_varied_is_refused_with_the_remedy() {
         ("stands.json blocks.lintell.weight=0..1", "blocks.lintell.weight=0: the scene has no entry"),
         ("stands.json friction=0..1 -o out.svg", "needs --curve"),
         ("stands.json friction=0..1 -o out.txt", ".json or .csv"),
-        ("stands.json friction=0..1 --placement", "have no effect on vary"),
+        ("stands.json friction=0..1 --placement", "unexpected argument '--placement'"),
         ("tower blocks=1.5..3", "a whole number"),
         ("nothing.json friction=0..1", "cannot read nothing.json"),
     ] {

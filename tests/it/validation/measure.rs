@@ -15,7 +15,7 @@ pub fn frame(file: &Value) -> Arc<FrameAnalysis> {
 
 /// The lower and the upper end of the interval of a parameter.
 fn ends(file: &Value, kind: MarginKind) -> [f64; 2] {
-    let options = Options::default().margins(true).margin_kinds(MarginKinds::new(&[kind]));
+    let options = Options::default().margins(MarginKinds::new(&[kind]));
     let frames = Analysis::with(scene(file), &options).frames;
     let margins = frames[0].margins.as_ref().expect("margins were requested");
     [margins.least(kind), margins.most(kind)].map(|end| end.unwrap_or(f64::NAN))

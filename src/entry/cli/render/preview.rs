@@ -181,7 +181,7 @@ impl Preview<'_> {
         let figure = &self.render.draw.figure;
         let needs_more = |kind: Kind| {
             kind.shows_one_block() && figure.block.is_none()
-                || kind.needs_capacity() && figure.capacity.capacity.is_none()
+                || kind.needs_capacity() && figure.ask.capacity.capacity.is_none()
         };
         let kinds = Kind::ALL.into_iter().filter(|kind| !needs_more(*kind)).map(|kind| quoted(kind.name()));
         let themes = ThemeChoice::all().into_iter().map(|theme| quoted(theme.word()));

@@ -2,7 +2,7 @@ use std::fs;
 use std::path::Path;
 
 use super::*;
-use crate::mechanics::analysis::Options;
+use crate::mechanics::analysis::{MarginKinds, Options};
 use crate::mechanics::scene::format::{BlockEntry, LimitsEntry, RobotEntry, StepEntry};
 
 fn assert_fits(name: &str, analysis: &Analysis) {
@@ -40,7 +40,7 @@ fn every_scene_of_the_assets_fits_a_terminal() {
             let scene = Scene::from_json(&fs::read_to_string(&path).expect("text"));
             let scene = scene.expect("a valid scene");
             let options = match folder {
-                "thesis" => Options::default().margins(true),
+                "thesis" => Options::default().margins(MarginKinds::ALL),
                 _ => Options::default().verdict_only(true),
             };
             assert_fits(&name, &Analysis::with(scene, &options));
@@ -78,7 +78,7 @@ fn strange_names_and_many_robots_fit_a_terminal() {
         }
         let scene = scene.step(StepEntry::new(&name).place(&ids[..5])).step(held);
         let scene = scene.build().expect("a valid scene");
-        let options = Options::default().margins(true);
+        let options = Options::default().margins(MarginKinds::ALL);
         assert_fits(&format!("{name}.json"), &Analysis::with(scene, &options));
     }
 }

@@ -8,7 +8,7 @@ use crate::entry::cli::error::CliError;
 use crate::entry::cli::exit_status::ExitStatus;
 use crate::entry::cli::new;
 use crate::entry::request::AnalysisArgs;
-use crate::mechanics::analysis::{Accuracy, Analysis, MarginKind, MarginKinds, Options, Verdict, verdicts};
+use crate::mechanics::analysis::{Accuracy, Analysis, Ask, MarginKind, Options, Verdict, verdicts};
 use crate::mechanics::scene::format::{Expectation, SceneFile};
 use crate::mechanics::scene::{Scene, SceneError, Setting, number_in};
 use crate::mechanics::vary::{Found, Map, Range, Sample, State, ValueGrid, scan};
@@ -77,9 +77,6 @@ impl Varied {
         ordinate: Ordinate<'_>,
         level: &AnalysisArgs,
     ) -> Result<Varied, CliError> {
-        if level.wedging || level.placement || level.removable {
-            return Err("--wedging, --placement and --removable have no effect on vary; leave them out".into());
-        }
         let dimensions = new::dimensions(name);
         let is_dimension = |own: &str| dimensions.iter().flatten().find(|(dimension, _)| dimension == own);
         let (mut ranges, mut of_structure, mut fixed, mut goal) = (Vec::new(), Vec::new(), level.set.clone(), None);
@@ -146,10 +143,9 @@ impl Varied {
             Options { deadline: level.options().deadline, accuracy: level.accuracy, ..Options::default() };
         for name in named {
             if let Some(kind) = MarginKind::all().into_iter().find(|kind| kind.word() == name) {
-                let kinds = if options.margins { options.margin_kinds.with(kind) } else { MarginKinds::new(&[kind]) };
-                options = options.margins(true).margin_kinds(kinds);
+                options.ask.margins = options.ask.margins.with(kind);
             }
-            options.placement |= name.split('.').next() == Some("placement");
+            options.ask.placement |= name.split('.').next() == Some("placement");
         }
         let written = |goal: &Goal| format!("{}{}{}", goal.name, if goal.is_least { ">=" } else { "<=" }, goal.value);
         let question = Question {
@@ -279,11 +275,7 @@ impl Varied {
         }
         // Margins are computed only where a number is wanted.
         let has_number = wanted.number || self.goal.is_some();
-        let options = Options {
-            margins: self.options.margins && has_number,
-            placement: self.options.placement && has_number,
-            ..self.options
-        };
+        let options = if has_number { self.options } else { Options { ask: Ask::NOTHING, ..self.options } };
         let analysis = Analysis::exact(scene, &options);
         let found: Vec<Verdict> = analysis.frames.iter().map(|frame| frame.verdict).collect();
         let mut state = state_of(analysis.given(), &found);

@@ -88,7 +88,7 @@ impl Analysis {
 /// Computes the capacity of each frame if the options request it. Adds a notice if a point of the force lies outside
 /// the block. Also adds a notice if the computation fails, unless the block is not placed in this frame.
 pub(super) fn add_capacities(scene: &Scene, interfaces: &Interfaces, frames: &mut [FrameAnalysis], options: &Options) {
-    let Some(request) = &options.capacity else {
+    let Some(request) = &options.ask.capacity else {
         return;
     };
     let _until = DeadlineGuard::new(options.deadline);

@@ -375,12 +375,15 @@ impl Word for MarginKind {
 }
 
 /// A set of margins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MarginKinds {
     bits: u16,
 }
 
 impl MarginKinds {
+    /// The empty set.
+    pub const NONE: MarginKinds = MarginKinds { bits: 0 };
+
     /// The set of all margins.
     pub const ALL: MarginKinds = MarginKinds { bits: (1 << MarginKind::ALL.len()) - 1 };
 
@@ -396,7 +399,7 @@ impl MarginKinds {
 
     /// Creates a set of margins from a list.
     pub fn new(list: &[MarginKind]) -> MarginKinds {
-        list.iter().fold(MarginKinds { bits: 0 }, |set, kind| set.with(*kind))
+        list.iter().fold(MarginKinds::NONE, |set, kind| set.with(*kind))
     }
 
     /// Returns this set with one margin added.
@@ -405,14 +408,19 @@ impl MarginKinds {
         MarginKinds { bits: self.bits | 1 << kind as u16 }
     }
 
+    /// Returns the margins of this set and of another one.
+    #[must_use]
+    pub fn and(self, other: MarginKinds) -> MarginKinds {
+        MarginKinds { bits: self.bits | other.bits }
+    }
+
+    /// True if the set contains no margin.
+    pub fn is_empty(self) -> bool {
+        self.bits == 0
+    }
+
     /// True if the set contains this margin.
     pub fn has(self, kind: MarginKind) -> bool {
         self.bits & 1 << kind as u16 != 0
-    }
-}
-
-impl Default for MarginKinds {
-    fn default() -> MarginKinds {
-        MarginKinds::ALL
     }
 }

@@ -68,7 +68,7 @@ impl Margin {
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.5,
 ///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
 ///     "blocks": [{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 6 }] }"#)?;
-/// let analysis = Analysis::with(&scene, &Options::default().margins(true));
+/// let analysis = Analysis::with(&scene, &Options::default().margins(MarginKinds::ALL));
 /// let margins = analysis.frames[0].margins.as_ref().expect("requested");
 /// let slides = margins.most(MarginKind::HorizontalLoad).expect("a block slides");
 /// assert!((slides - 0.5).abs() < 1e-6);

@@ -146,7 +146,7 @@ fn joints_that_could_only_stay_closed_at_rest_open() {
         column("b", 1.0)
     );
     let scene = Scene::from_json(&text).unwrap_or_else(|problems| panic!("{problems}"));
-    let options = crate::mechanics::analysis::Options::default().margins(true);
+    let options = crate::mechanics::analysis::Options::default().margins(crate::mechanics::analysis::MarginKinds::ALL);
     let analysis = Analysis::with(&scene, &options);
     let (_, motions) = analysis.edge(0, crate::mechanics::analysis::MarginKind::Tilt).expect("it falls");
     let displaced = Course::new(&Fall::with(&analysis, 0, &motions), unit(&scene, None)).at(1.0);

@@ -14,8 +14,8 @@ use crate::products::figure::{self, At, Kind, Options};
 use crate::products::wording::margin::headline;
 use crate::products::wording::number::letter;
 use crate::products::wording::question::{self, thrust_range};
-use crate::products::wording::verdict;
-use crate::text::line;
+use crate::products::wording::{answer, sensitivity, verdict};
+use crate::text::{capitalised, line};
 
 /// Width of a figure of the whole page, pixels, the height of its picture, and that of the outline on the first page.
 const WIDE: f64 = 680.0;
@@ -120,6 +120,10 @@ pub(super) fn sheet(
     parts.push(SheetPart::Table(robots(solved)));
     parts.extend(movements(solved));
     parts.extend(titled("Blocks that may leave", removable(solved), None));
+    if let Some(own) = &found.sensitivity {
+        parts.push(SheetPart::Heading(format!("Sensitivity of the {}", sensitivity::name(own.kind, true))));
+        parts.extend(sensitivity::lines(solved, own).iter().map(|words| SheetPart::Text(line(words))));
+    }
     parts.push(SheetPart::Heading("Balance of forces".to_owned()));
     parts.push(SheetPart::Table(balance::whole(analysis, number)));
     parts.push(SheetPart::Note(balance::check_words(found)));
@@ -393,13 +397,10 @@ fn assumptions(solved: SolvedFrame<'_>) -> String {
 /// result of the test for wedging, if the test was made and did not show that the structure stands without wedging, and
 /// the notices of the analysis.
 fn remarks(solved: SolvedFrame<'_>) -> Vec<String> {
-    let SolvedFrame { scene, found: frame_analysis, .. } = solved;
-    let influence = frame_analysis.vehicle.as_ref();
-    let influence = influence.map(|own| format!("Vehicle: {}.", line(&question::vehicle_sentence(scene, own))));
-    let placement = frame_analysis.placement.as_ref();
-    let placement = placement.map(|p| format!("Placement: {}.", line(&question::placement_sentence(solved, p))));
-    let rows = frame_analysis.removable.iter();
-    let rows = rows.map(|rows| format!("Removable: {}.", line(&question::removable_phrases(scene, rows).join("; "))));
+    let SolvedFrame { found: frame_analysis, .. } = solved;
+    // Movements have a table.
+    let answers = answer::sentences(solved).into_iter().filter(|(name, _)| *name != "movement");
+    let answers = answers.map(|(name, words)| format!("{}: {}.", capitalised(name), line(&words)));
     let wedging = frame_analysis
         .effects
         .iter()
@@ -407,5 +408,5 @@ fn remarks(solved: SolvedFrame<'_>) -> Vec<String> {
         .filter(|_| frame_analysis.only_by_wedging != Some(false));
     let wedging = wedging.map(|w| format!("Wedging: {}.", line(&w.why)));
     let notices = frame_analysis.notices.iter().map(|n| format!("Note: {}.", line(n)));
-    influence.into_iter().chain(placement).chain(rows).chain(wedging).chain(notices).collect()
+    answers.chain(wedging).chain(notices).collect()
 }
