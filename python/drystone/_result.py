@@ -138,23 +138,23 @@ class Frame(_Answer):
 
 
 class Result(_Answer):
-    """The result for a scene. Every key of the output of ``drystone check --json`` is an attribute."""
+    """The result for a scene. Every key of the output of ``drystone check --json`` is an attribute.
 
-    def __init__(self, native: _drystone.Analysis, scene: Scene | None) -> None:
+    A result can be copied and pickled, like its frames and figures. A copy costs nothing. A pickle contains the scene and
+    the options, and unpickling solves the scene again: send a table, a dict or a verdict between processes where this
+    takes too long.
+    """
+
+    def __init__(self, native: _drystone.Analysis, scene: Scene) -> None:
         self._native = native
         self._frame = None
-        self._scene = None if scene is None else scene._frozen()
-        self._path = None if scene is None else scene._path
+        self._scene = scene._frozen()
+        self._path = scene._path
         self._read: Record | None = None
 
     @property
     def scene(self) -> Scene:
-        """The scene as it was when it was analysed.
-
-        Raises :class:`DrystoneError` if the result comes from a session.
-        """
-        if self._scene is None:
-            raise DrystoneError("the result of a session has no scene file; build a Scene with the same blocks and check it")
+        """The scene as it was when it was analysed."""
         return self._scene
 
     @property
@@ -197,15 +197,17 @@ class Result(_Answer):
         """Returns the JSON that ``drystone check --certificate`` writes: proofs that anybody can check exactly.
 
         It proves the verdicts, and the margins and the capacity if they were computed. It contains the hash of the scene
-        file that ``scene.save`` writes, or none if the result comes from a session.
+        file that ``scene.save`` writes.
         """
-        text = "" if self._scene is None else self._scene.to_json()
-        return self._native.certificate(hashlib.sha256(text.encode()).hexdigest() if text else "")
+        return self._native.certificate(hashlib.sha256(self._scene.to_json().encode()).hexdigest())
 
     def report(self, path: str | os.PathLike[str], *, title: str | None = None, theme: str | None = None) -> None:
         """Writes a report on the scene to a ``.html``, ``.pdf``, ``.md`` or ``.json`` file."""
         text = self.scene.to_json()
         self._native.report(os.fspath(path), self._path or "scene.json", text, title, theme)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_read": None}
 
     def _record(self) -> Record:
         if self._read is None:

@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from typing import Any
 
 from . import _drystone, _geometry
-from ._check import Margins, analysis_options
+from ._check import Margins, analysis_options, check
 from ._geometry import Outline, Point
 from ._result import Result
-from ._scene import AnyScene, _dumps, as_scene
+from ._scene import AnyScene, Scene, _dumps, as_scene
 from ._table import Record
 
 
@@ -20,6 +20,9 @@ class Session:
     A session starts with a scene without steps. The methods :meth:`place`, :meth:`remove`, :meth:`hold` and
     :meth:`release` are the steps of a session. Each step returns the verdict: "stable", "unstable" or "undecided". A
     step that is not possible raises :class:`DrystoneError` and does not change the session.
+
+    A session can be copied and pickled. A pickle contains the start and the steps; unpickling repeats the steps, and
+    solves only the last state.
 
     >>> from drystone import Scene
     >>> session = Session(Scene().ground([(-9, -1), (9, -1), (9, 0), (-9, 0)]).robot("crane"))
@@ -85,9 +88,8 @@ class Session:
         return dict(self._native.holds)
 
     def check(self, *, margins: Margins = False, wedging: bool = False) -> Result:
-        """Returns the complete analysis of the placed blocks. The result has no scene."""
-        options = analysis_options(margins, wedging=wedging)
-        return Result(self._native.analysis(options), None)
+        """Returns the complete analysis of the placed blocks. The scene of the result has these blocks and no steps."""
+        return check(Scene._of_text(self._native.scene(False)), margins=margins, wedging=wedging, notes=False)
 
     def margins(self, *kinds: str) -> Any:
         """Returns the margins of the placed blocks: those of the given kinds, or all margins if no kind is given."""
@@ -102,6 +104,14 @@ class Session:
         :func:`drystone.check`.
         """
         return json.loads(self._native.capacity(_geometry.capacity_word((block, *points)), for_all), object_hook=Record)
+
+    def scene(self) -> Scene:
+        """Returns the session as a scene with steps.
+
+        The first step places the blocks with which the session started, if there are any; then each step of the session
+        follows. A block that is placed again in another way after it was removed gets another name, such as "a (2)".
+        """
+        return Scene._of_text(self._native.scene(True))
 
     def copy(self) -> Session:
         """Returns an independent session in the same state, in which steps can be tried."""

@@ -1,6 +1,9 @@
 """Results: attributes, tables, JSON."""
 
+import copy
+import hashlib
 import json
+import pickle
 import subprocess
 import sys
 
@@ -45,7 +48,9 @@ def test_certificates_are_those_of_the_program(steps, tmp_path):
     proof.write_text(ds.check(steps).certificate(), encoding="utf-8")
     assert program("verify", proof, scene).stdout.count("exactly") == 3
     session = ds.Session(ROOT / "assets/certificate/stands.json")
-    assert json.loads(session.check().certificate())["scene_sha256"] == ""
+    result = session.check()
+    known = hashlib.sha256(result.scene.to_json().encode()).hexdigest()
+    assert json.loads(result.certificate())["scene_sha256"] == known
 
 
 def test_attributes_mirror_the_result(steps):
@@ -232,3 +237,31 @@ def test_the_program_comes_with_the_package():
     path = ROOT / "assets/thesis/figure-4.json"
     assert program("check", "--quiet", path).returncode == 1
     assert program("chek").returncode == 2
+
+
+def test_results_are_pickled_and_copied(lintel, steps, tmp_path):
+    path = tmp_path / "lintel.json"
+    lintel.save(path)
+    result = ds.check(path, margins="tilt", capacity=("lintel", (2, 3)))
+    for made in (pickle.loads(pickle.dumps(result)), copy.copy(result), copy.deepcopy(result)):
+        assert made.to_json(timing=False) == result.to_json(timing=False) and "lintel.json" in made.to_json()
+        assert made.scene == result.scene and made.stands is result.stands
+        assert made.figure().svg() == result.figure().svg()
+    assert copy.deepcopy(result)._native is result._native, "a copy is not solved again"
+    many = ds.check_many([lintel, {"blocks": [{"id": "a"}]}, steps], errors="keep")
+    again = pickle.loads(pickle.dumps(many))
+    assert again.verdicts == many.verdicts and str(again[1]) == str(many[1]) and again[1].problems == many[1].problems
+    assert again.table.to_dicts() == many.table.to_dicts()
+    frame = many[2].frames[1]
+    other = pickle.loads(pickle.dumps(frame))
+    assert (other.number, other.title, other.verdict) == (frame.number, frame.title, frame.verdict)
+    for name in ("contacts", "blocks", "robots", "failures"):
+        table = getattr(many[2], name)
+        for same in (pickle.loads(pickle.dumps(table)), copy.deepcopy(table)):
+            assert same.to_dicts() == table.to_dicts() and repr(same) == repr(table)
+    for thing in (frame.figure("mechanism", width_mm=84), ds.Figure.of_problems(ds.Scene().block("a")._json())):
+        assert pickle.loads(pickle.dumps(thing)).svg() == thing.svg()
+    varied = ds.vary("arch", {"voussoirs": 9, "thickness": (0.1, 0.6)}, digits=2)
+    assert pickle.loads(pickle.dumps(varied)) == varied == copy.deepcopy(varied)
+    record = result.frames[0].margins
+    assert pickle.loads(pickle.dumps(record)) == record == copy.deepcopy(record)

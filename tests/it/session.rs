@@ -137,6 +137,18 @@ fn played(number: u64, base: Value, candidate: impl Fn(&mut Random, usize) -> Va
             Verdict::Undecided => {}
         }
     }
+    // The whole sequence as a scene file, and its end as another.
+    for file in [session.scene_file(), session.placed_file()] {
+        let scene = Scene::new(file).expect("the session accepted every step");
+        let frame = scene.frames().last().expect("a scene has a frame");
+        let placed: Vec<&str> = frame.placed.iter().map(|block| scene.blocks()[block.0].id.as_str()).collect();
+        assert_eq!(
+            (placed, frame.holds.len()),
+            (standing.iter().map(String::as_str).collect(), held.iter().flatten().count())
+        );
+        let analysis = Analysis::new(&scene);
+        assert_eq!(analysis.frames.last().map(|frame| frame.verdict), Some(session.verdict()), "sequence {number}");
+    }
 }
 
 fn robots() -> Value {

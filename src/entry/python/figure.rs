@@ -4,7 +4,7 @@ use std::path::Path;
 
 use pyo3::prelude::*;
 
-use super::{Ring, fault};
+use super::{Ring, detached, fault};
 use crate::entry::cli::draw::DrawArgs;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::missing_glyphs;
@@ -49,7 +49,7 @@ pub(super) fn sketch(py: Python<'_>, text: &str, request: &str, ending: &str) ->
         let fonts = args.picture.fonts().map_err(message)?;
         args.picture.bytes(drawing, format, &fonts).map_err(message)
     };
-    py.detach(drawn).map_err(|why| fault(py, &why))
+    detached(py, drawn).map_err(|why| fault(py, &why))
 }
 
 /// Returns what to write instead of a kind of figure or a quantity of colours with a name of the last version.

@@ -8,14 +8,17 @@ mod session;
 mod table;
 
 use std::ffi::OsString;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+use pyo3::pybacked::PyBackedStr;
+use pyo3::types::PyType;
+use rayon::prelude::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::entry::cli;
 use crate::entry::cli::error::CliError;
@@ -46,6 +49,8 @@ request! {
 #[derive(Clone, Debug)]
 struct Options {
     request: AnalysisRequest,
+    /// The JSON object that was read, for pickles.
+    text: Arc<str>,
 }
 
 #[pymethods]
@@ -54,7 +59,11 @@ impl Options {
     #[new]
     fn new(py: Python<'_>, text: &str) -> PyResult<Options> {
         let request = read_json(Some(text), AnalysisRequest::read).map_err(|why| fault(py, &why))?;
-        Ok(Options { request })
+        Ok(Options { request, text: text.into() })
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> (Bound<'py, PyType>, (&str,)) {
+        (py.get_type::<Options>(), (&self.text,))
     }
 }
 
@@ -82,19 +91,28 @@ impl Options {
 
 /// A scene and its results.
 #[pyclass(frozen, module = "drystone._drystone")]
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 struct Analysis {
     analysis: Arc<analysis::Analysis>,
-}
-
-impl Analysis {
-    fn new(analysis: analysis::Analysis) -> Analysis {
-        Analysis { analysis: Arc::new(analysis) }
-    }
+    /// The text of the scene, which Python keeps too, and the options of the analysis.
+    asked: (PyBackedStr, Py<Options>),
 }
 
 #[pymethods]
 impl Analysis {
+    /// An analysis is pickled as the scene and the options, and solved again.
+    #[allow(clippy::type_complexity)]
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (&str, &Py<Options>))> {
+        let check = py.import("drystone._drystone")?.getattr("check")?;
+        Ok((check, (&self.asked.0, &self.asked.1)))
+    }
+
+    /// An analysis cannot change, so that it is its own copy.
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, memo: Bound<'py, PyAny>) -> Py<Self> {
+        drop(memo);
+        slf.unbind()
+    }
+
     /// Returns the verdict of each frame.
     fn verdicts(&self) -> Vec<&'static str> {
         self.analysis.frames.iter().map(|f| f.verdict.word()).collect()
@@ -118,7 +136,7 @@ impl Analysis {
 
     /// Returns the certificate that `check --certificate` writes; `hash` is the SHA-256 of the scene file.
     fn certificate(&self, py: Python<'_>, hash: String) -> String {
-        py.detach(|| Certificate::new(&mut (*self.analysis).clone(), hash, true).to_json())
+        detached(py, || Certificate::new(&mut (*self.analysis).clone(), hash, true).to_json())
     }
 
     /// Returns the table `contacts`, `robots`, `failures` or `blocks`, for the frame with the index `frame`, or for all
@@ -147,13 +165,13 @@ impl Analysis {
     /// Draws a figure of all frames, or only of the frame with the index `frame`, and returns the bytes of the picture
     /// file. `request` are options of `render` as JSON, and the file extension `ending` selects the format.
     fn figure(&self, py: Python<'_>, request: &str, ending: &str, frame: Option<usize>) -> PyResult<Vec<u8>> {
-        py.detach(|| figure::drawn(&self.analysis, request, ending, frame)).map_err(|why| fault(py, &why))
+        detached(py, || figure::drawn(&self.analysis, request, ending, frame)).map_err(|why| fault(py, &why))
     }
 
     /// Compares the result with its references: `base.txt`, `base.svg` and `base.png`. Returns the differences in lines,
     /// or, with `accepts`, writes them as references.
     fn snapshot(&self, py: Python<'_>, base: std::path::PathBuf, accepts: bool) -> Vec<String> {
-        py.detach(|| assertion::analysis(&base, &self.analysis, accepts)).err().unwrap_or_default()
+        detached(py, || assertion::analysis(&base, &self.analysis, accepts)).err().unwrap_or_default()
     }
 
     /// Writes a report on the scene to the file `path`. `name` and `text` are the name and the content of the scene
@@ -167,7 +185,7 @@ impl Analysis {
         title: Option<String>,
         theme: Option<&str>,
     ) -> PyResult<()> {
-        py.detach(|| figure::report(&self.analysis, path, [name, text], title, theme)).map_err(|why| fault(py, &why))
+        detached(py, || figure::report(&self.analysis, path, [name, text], title, theme)).map_err(|why| fault(py, &why))
     }
 }
 
@@ -201,11 +219,41 @@ fn raised<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallA
     }
 }
 
+/// Does work without blocking the other threads of Python.
+///
+/// In a process that was forked after its parent has solved something, the threads of the parent do not exist, and waiting
+/// for them would never end. Such a process gets its own threads.
+fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
+    static FIRST: OnceLock<u32> = OnceLock::new();
+    static FORKED: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+    py.detach(|| {
+        let own = std::process::id();
+        if *FIRST.get_or_init(|| own) == own {
+            return work();
+        }
+        let Ok(mut forked) = FORKED.lock() else { return work() };
+        let pool = match forked.take() {
+            Some((process, pool)) if process == own => pool,
+            other => {
+                // The threads of this pool exist in another process only, so it cannot be closed here.
+                std::mem::forget(other);
+                let Ok(pool) = ThreadPoolBuilder::new().build() else { return work() };
+                Arc::new(pool)
+            }
+        };
+        *forked = Some((own, pool.clone()));
+        drop(forked);
+        pool.install(work)
+    })
+}
+
 /// Analyses a scene, given as JSON text. Raises an exception if the scene is not valid, or if the requested capacity
 /// does not fit the scene.
 #[pyfunction]
-fn check(py: Python<'_>, text: &str, options: &Options) -> PyResult<Analysis> {
-    py.detach(|| options.analysis(text)).map(Analysis::new).map_err(|why| options.raised(py, why))
+fn check(py: Python<'_>, text: PyBackedStr, options: &Bound<'_, Options>) -> PyResult<Analysis> {
+    let own = options.get();
+    let analysis = detached(py, || own.analysis(&text)).map_err(|why| own.raised(py, why))?;
+    Ok(Analysis { analysis: analysis.into(), asked: (text, options.clone().unbind()) })
 }
 
 /// Finds the values of one or two numbers at which a structure stands. `text` is a scene as JSON; without it, `name` is a
@@ -222,7 +270,7 @@ fn vary(
 ) -> PyResult<(String, String)> {
     let bytes = || text.map(String::into_bytes).ok_or_else(|| format!("there is no structure {name}").into());
     let level = &options.request.what.level;
-    let found = py.detach(|| {
+    let found = detached(py, || {
         let ordinate = Ordinate { curve: shown.0.as_deref(), isolines: shown.1.as_deref() };
         let varied = Varied::read(name, bytes, &numbers, ordinate, &level.started())?;
         let answer = varied.answer(digits.clamp(2, 9), || ());
@@ -241,13 +289,14 @@ fn vary(
 #[pyfunction]
 fn check_many(
     py: Python<'_>,
-    texts: Vec<String>,
-    options: &Options,
+    texts: Vec<PyBackedStr>,
+    options: &Bound<'_, Options>,
     progress: Option<Py<PyAny>>,
     threads: usize,
 ) -> PyResult<Vec<Py<PyAny>>> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    let (own, texts_read) = (options.get(), &texts);
     let stop = AtomicBool::new(false);
     let mut stopped = None;
     let answers = py.detach(|| {
@@ -255,15 +304,15 @@ fn check_many(
         std::thread::scope(|scope| {
             let stop = &stop;
             let work = scope.spawn(move || {
-                let answer = |(number, text): (usize, String)| {
+                let answer = |(number, text): (usize, &PyBackedStr)| {
                     if stop.load(Ordering::Relaxed) {
                         return None;
                     }
-                    let answer = options.analysis(&text);
+                    let answer = own.analysis(text);
                     let _ = sender.send(number);
                     Some(answer)
                 };
-                let texts = texts.into_par_iter().enumerate();
+                let texts = texts_read.par_iter().enumerate();
                 pool.install(|| texts.map(answer).collect::<Vec<_>>())
             });
             let mut count = 0;
@@ -297,11 +346,14 @@ fn check_many(
         return Err(error);
     }
     let answers = answers.map_err(|_| PyRuntimeError::new_err("a thread of check_many failed"))?;
-    let one = |answer: Result<analysis::Analysis, Refused>| match answer {
-        Ok(analysis) => Ok(Py::new(py, Analysis::new(analysis))?.into_any()),
-        Err(why) => Ok(options.raised(py, why).into_value(py).into_any()),
+    let one = |(answer, text): (Result<analysis::Analysis, Refused>, PyBackedStr)| match answer {
+        Ok(analysis) => {
+            let asked = (text, options.clone().unbind());
+            Ok(Py::new(py, Analysis { analysis: analysis.into(), asked })?.into_any())
+        }
+        Err(why) => Ok(own.raised(py, why).into_value(py).into_any()),
     };
-    answers.into_iter().flatten().map(one).collect()
+    answers.into_iter().flatten().zip(texts).map(one).collect()
 }
 
 /// Checks a scene, given as JSON text, and raises an exception if it is not valid.

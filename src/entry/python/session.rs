@@ -1,9 +1,12 @@
 //! [`Session`]: the Python class for a structure under construction. Each step, such as placing a block, returns the
 //! verdict.
 
-use pyo3::prelude::*;
+use std::sync::Arc;
 
-use super::{Analysis, Options, Ring, fault, refused};
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+
+use super::{Options, Ring, detached, fault, refused};
 use crate::entry::request::in_json;
 use crate::geometry::Point;
 use crate::mechanics::analysis;
@@ -18,18 +21,38 @@ use crate::read::{Dialect, Notation, Read, from_text};
 #[derive(Clone, Debug)]
 pub(super) struct Session {
     inner: session::Session,
+    options: Arc<str>,
 }
 
 #[pymethods]
 impl Session {
+    /// Starts a session. `done` has the steps to repeat, as in a pickle.
     #[new]
-    fn new(py: Python<'_>, text: &str, options: &Options) -> PyResult<Session> {
+    #[pyo3(signature = (text, options, done = None))]
+    fn new(py: Python<'_>, text: &str, options: &Options, done: Option<&str>) -> PyResult<Session> {
         // Check the text first, because only `Scene::from_json` reports the lines of problems.
         Scene::from_json(text).map_err(|problems| refused(py, problems, options.request.located))?;
         let file = SceneFile::from_json(text).map_err(|why| fault(py, &why.to_string()))?;
-        let inner = py.detach(|| session::Session::with(file, options.request.what.level.options()));
+        let done = done.map(SceneFile::from_json).transpose().map_err(|why| fault(py, &why.to_string()))?;
+        let base = options.request.what.level.options();
+        let inner = detached(py, || match done {
+            None => session::Session::with(file, base),
+            Some(done) => session::Session::repeated(file, done, base),
+        });
         let inner = inner.map_err(|error| complaint(py, error))?;
-        Ok(Session { inner })
+        Ok(Session { inner, options: options.text.clone() })
+    }
+
+    /// A session is pickled as its start and its steps.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyType>, (String, Options, String))> {
+        let (start, done) = self.inner.done();
+        let options = Options::new(py, &self.options)?;
+        Ok((py.get_type::<Session>(), (start.to_json(), options, done.to_json())))
+    }
+
+    /// Returns the scene file with the steps of the session, or without them, as the blocks are placed now.
+    fn scene(&self, steps: bool) -> String {
+        if steps { self.inner.scene_file() } else { self.inner.placed_file() }.to_json()
     }
 
     /// Places a block with these rings, in the scene's unit of length (by default metres), and returns the verdict.
@@ -91,19 +114,12 @@ impl Session {
             .collect()
     }
 
-    /// Analyses the placed blocks. The contact tolerance, `notes` and `located` in `options` have no effect.
-    fn analysis(&self, py: Python<'_>, options: &Options) -> PyResult<Analysis> {
-        let scene = self.inner.scene();
-        let options = options.request.what.options(scene).map_err(|why| fault(py, &in_json(&why)))?;
-        Ok(Analysis::new(py.detach(|| analysis::Analysis::exact(scene, &options))))
-    }
-
     /// Computes all forces that a placed block can carry, and returns them as JSON. `typed` and `for_all` are written
     /// like the values of `--capacity` and `--for-all`.
     fn capacity(&self, py: Python<'_>, typed: &str, for_all: Option<&str>) -> PyResult<String> {
         let request = analysis::typed_capacity(self.inner.scene(), typed, for_all);
         let request = request.map_err(|why| fault(py, &in_json(&why)))?;
-        let found = py.detach(|| self.inner.capacity(&request));
+        let found = detached(py, || self.inner.capacity(&request));
         let found = found.map_err(|why| fault(py, &why.to_string()))?;
         Ok(result::capacity_json(self.inner.scene(), &found))
     }
@@ -120,7 +136,7 @@ impl Session {
         work: impl FnOnce(&mut session::Session) -> Result<analysis::Verdict, SessionError> + Send,
     ) -> PyResult<&'static str> {
         let inner = &mut self.inner;
-        match py.detach(|| work(inner)) {
+        match detached(py, || work(inner)) {
             Ok(verdict) => Ok(verdict.word()),
             Err(error) => Err(complaint(py, error)),
         }

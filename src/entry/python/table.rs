@@ -8,7 +8,7 @@ use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch,
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyByteArray, PyCapsule, PyList};
+use pyo3::types::{PyByteArray, PyCapsule, PyList, PyType};
 
 use crate::geometry::Vector;
 use crate::mechanics::analysis::{Analysis, Contact, ContactKind, End, Failure, FrameAnalysis, MarginKind, RobotForce};
@@ -31,6 +31,34 @@ pub(super) struct Table {
 
 #[pymethods]
 impl Table {
+    /// Makes a table again from the names and the values of its columns.
+    #[new]
+    fn restored(names: Vec<String>, columns: Vec<(String, Bound<'_, PyAny>)>, rows: usize) -> PyResult<Table> {
+        fn numbers<T>(values: &Bound<'_, PyAny>, number: fn([u8; 8]) -> T) -> PyResult<Vec<T>> {
+            let bytes = values.cast::<PyByteArray>()?.to_vec();
+            Ok(bytes.as_chunks::<8>().0.iter().map(|bytes| number(*bytes)).collect())
+        }
+        let columns = names.into_iter().zip(columns).map(|(name, (kind, values))| {
+            let column = match kind.as_str() {
+                "f8" => Column::Real(numbers(&values, f64::from_ne_bytes)?),
+                "i8" => Column::Whole(numbers(&values, i64::from_ne_bytes)?),
+                "?" => Column::Flag(values.cast::<PyByteArray>()?.to_vec().iter().map(|flag| *flag != 0).collect()),
+                _ => Column::Word(values.extract()?),
+            };
+            Ok((name, column))
+        });
+        Ok(Table { columns: columns.collect::<PyResult<_>>()?, rows })
+    }
+
+    /// A table is pickled as its columns.
+    #[allow(clippy::type_complexity)]
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyType>, (Vec<&str>, Vec<(&'static str, Bound<'py, PyAny>)>, usize))> {
+        Ok((py.get_type::<Table>(), (self.names(), self.columns(py)?, self.rows)))
+    }
+
     fn __len__(&self) -> usize {
         self.rows
     }

@@ -13,6 +13,7 @@ mod error;
 mod plan;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 pub use error::SessionError;
 pub use plan::{PlanError, plan};
@@ -22,7 +23,7 @@ use crate::mechanics::analysis::{
     Analysis, CapacityError, CapacityRequest, LoadCapacity, MarginKinds, Margins, Options, Source, Verdict, WarmStart,
     capacity_of, hinges_on_gaps,
 };
-use crate::mechanics::scene::format::{BlockEntry, SceneFile};
+use crate::mechanics::scene::format::{BlockEntry, GripEntry, HoldEntry, SceneFile, StepEntry};
 use crate::mechanics::scene::{BlockId, BodyId, Grip, RobotId, Scene, SceneError};
 use crate::mechanics::solve::DeadlineGuard;
 use crate::mechanics::statics::interface::{Interfaces, LatticeEdges};
@@ -49,6 +50,10 @@ use crate::mechanics::statics::interface::{Interfaces, LatticeEdges};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Session {
+    /// The scene file at the start, with the names of all blocks and robots.
+    start: Arc<SceneFile>,
+    /// The steps so far, each with the block that it places. Grip points are in metres.
+    steps: Vec<Arc<(StepEntry, Option<BlockEntry>)>>,
     /// The given scene file with the blocks placed so far, without holds.
     file: SceneFile,
     /// The scene file without title, bodies, robots, loads and listed contacts: the context for reading a single block.
@@ -90,16 +95,34 @@ impl Session {
     /// # Errors
     /// Returns an error in the same cases as [`Session::new`].
     pub fn with(file: SceneFile, options: Options) -> Result<Session, SessionError> {
+        let mut session = Session::started(file, options)?;
+        session.update_verdict();
+        Ok(session)
+    }
+
+    /// Starts a session without a verdict.
+    fn started(mut file: SceneFile, options: Options) -> Result<Session, SessionError> {
         if !file.steps.is_empty() {
             return Err(SessionError::Steps);
         }
         let scene = Scene::new(file.clone())?;
+        for (robot, read) in file.robots.iter_mut().zip(&scene.robots) {
+            robot.id = Some(read.id.clone());
+        }
+        for (block, read) in file.blocks.iter_mut().zip(&scene.blocks) {
+            block.id = Some(read.id.clone());
+        }
         let grips = scene.frames[0].holds.iter().map(|hold| {
             let given = file.robots[hold.robot.0].at.map(|_| hold.at);
             (hold.robot, (scene.blocks[hold.block.0].id.clone(), given))
         });
-        let mut session = Session {
-            grips: grips.collect(),
+        let grips = grips.collect();
+        let start = Arc::new(file.clone());
+        file.robots.iter_mut().for_each(|robot| (robot.holds, robot.at) = (None, None));
+        Ok(Session {
+            start,
+            steps: Vec::new(),
+            grips,
             bare: SceneFile {
                 title: None,
                 blocks: Vec::new(),
@@ -117,16 +140,114 @@ impl Session {
             options,
             verdict: Verdict::Stable,
             source: Source::Examined,
-        };
-        for (robot, read) in session.file.robots.iter_mut().zip(&session.scene.robots) {
-            (robot.holds, robot.at) = (None, None);
-            robot.id = Some(read.id.clone());
-        }
-        for (block, read) in session.file.blocks.iter_mut().zip(&session.scene.blocks) {
-            block.id = Some(read.id.clone());
+        })
+    }
+
+    /// Repeats the steps of [`Session::done`] after the same start, and solves only the last state.
+    #[cfg(feature = "python")]
+    pub(crate) fn repeated(start: SceneFile, done: SceneFile, options: Options) -> Result<Session, SessionError> {
+        let mut session = Session::started(start, options)?;
+        let mut blocks = done.blocks.into_iter();
+        for step in done.steps {
+            blocks.by_ref().take(step.place.len()).try_for_each(|block| session.add(block))?;
+            step.remove.iter().try_for_each(|block| session.take_away(block))?;
+            step.release.iter().try_for_each(|robot| session.let_go(robot))?;
+            for (robot, hold) in step.hold.0 {
+                let (block, at) = match hold {
+                    HoldEntry::Block(block) => (block, None),
+                    HoldEntry::Grip(grip) => (grip.block, grip.at),
+                };
+                session.grip(&robot, &block, at.map(Point::from))?;
+            }
         }
         session.update_verdict();
         Ok(session)
+    }
+
+    /// Returns the scene file at the start, and one with the steps so far and the blocks that they place, in this order.
+    /// Two of these blocks may have the same name, and grip points are in metres.
+    #[cfg(feature = "python")]
+    pub(crate) fn done(&self) -> (&SceneFile, SceneFile) {
+        let steps = self.steps.iter().map(|step| step.0.clone()).collect();
+        let blocks = self.steps.iter().filter_map(|step| step.1.clone()).collect();
+        (&self.start, SceneFile { blocks, steps, ..SceneFile::default() })
+    }
+
+    /// Returns the session as a scene file with steps. The first step places the blocks of the start, if it has any; each
+    /// step of the session follows. A block that is placed again in another way after it was removed gets another name,
+    /// such as `a (2)`. The `expect` of the start is left out.
+    ///
+    /// ```
+    /// use drystone::scene::format::BlockEntry;
+    /// use drystone::{Analysis, Scene, session::Session};
+    /// let brick = |x: f64, y: f64| BlockEntry::new("a").polygon([[x, y], [x + 3.0, y], [x + 3.0, y + 1.0], [x, y + 1.0]]);
+    /// let floor = [[-9.0, -1.0], [9.0, -1.0], [9.0, 0.0], [-9.0, 0.0]];
+    /// let mut session = Session::new(Scene::builder().ground(floor))?;
+    /// session.place(brick(0.0, 0.0))?;
+    /// session.remove("a")?;
+    /// session.place(brick(4.0, 0.0))?;
+    /// let scene = Scene::new(session.scene_file())?;
+    /// assert_eq!(scene.blocks()[1].id, "a (2)");
+    /// assert_eq!(Analysis::new(&scene).frames.len(), 3);
+    /// # Ok::<(), drystone::session::SessionError>(())
+    /// ```
+    pub fn scene_file(&self) -> SceneFile {
+        let mut file = SceneFile { expect: None, ..(*self.start).clone() };
+        let mut first = StepEntry::default().place(file.blocks.iter().filter_map(|block| block.id.clone()));
+        for robot in &mut file.robots {
+            let (block, at) = (robot.holds.take(), robot.at.take());
+            first.hold.0.extend(robot.id.clone().zip(block.map(|block| HoldEntry::Grip(GripEntry { block, at }))));
+        }
+        file.steps.extend(Some(first).filter(|step| !step.place.is_empty()));
+        let unit = self.scene.units.length();
+        // The names that the placed blocks have in the file, if they are others.
+        let mut names = BTreeMap::<String, String>::new();
+        for (step, block) in self.steps.iter().map(|step| &**step) {
+            let mut step = step.clone();
+            if let (Some(block), Some(id)) = (block, step.place.first_mut()) {
+                let known = |name: &String| file.blocks.iter().find(|block| block.id.as_ref() == Some(name));
+                // The loads on a block vanish when it is removed, so that a loaded block is not the same again.
+                let is_same = |name: &String| {
+                    let as_named = |old: &BlockEntry| BlockEntry { id: Some(name.clone()), ..block.clone() } == *old;
+                    let is_loaded = file.loads.iter().any(|load| load.block.as_ref() == Some(name));
+                    known(name).is_none_or(|old| as_named(old) && !is_loaded)
+                };
+                let others = (2_usize..).map(|n| format!("{id} ({n})"));
+                let name = std::iter::once(id.clone()).chain(others).find(is_same).unwrap_or_default();
+                if known(&name).is_none() {
+                    file.blocks.push(BlockEntry { id: Some(name.clone()), ..block.clone() });
+                }
+                names.insert(std::mem::replace(id, name.clone()), name);
+            }
+            let named = |name: &mut String| {
+                if let Some(new) = names.get(name) {
+                    name.clone_from(new);
+                }
+            };
+            step.remove.iter_mut().for_each(named);
+            for (_, hold) in &mut step.hold.0 {
+                match hold {
+                    HoldEntry::Block(block) => named(block),
+                    HoldEntry::Grip(grip) => {
+                        named(&mut grip.block);
+                        grip.at = grip.at.map(|at| at.map(|x| unit.value_from_si(x)));
+                    }
+                }
+            }
+            file.steps.push(step);
+        }
+        file
+    }
+
+    /// Returns the placed blocks, and what robots hold, as a scene file without steps.
+    pub fn placed_file(&self) -> SceneFile {
+        let (mut file, unit) = (self.file_without_holds(), self.scene.units.length());
+        for (robot, (block, at)) in &self.grips {
+            let robot = &mut file.robots[robot.0];
+            robot.holds = Some(block.clone());
+            robot.at = at.map(|at| [at.x, at.y].map(|x| unit.value_from_si(x)));
+        }
+        file
     }
 
     /// Places a block, and returns the verdict. A block without an id gets as its id the smallest number (1, 2, …) that
@@ -135,18 +256,24 @@ impl Session {
     /// # Errors
     /// Returns an error, and places nothing, if the block is not valid, for example because it overlaps another block,
     /// or if its id is in use.
-    pub fn place(&mut self, mut block: BlockEntry) -> Result<Verdict, SessionError> {
+    pub fn place(&mut self, block: BlockEntry) -> Result<Verdict, SessionError> {
+        self.add(block)?;
+        Ok(self.update_verdict())
+    }
+
+    fn add(&mut self, mut block: BlockEntry) -> Result<(), SessionError> {
         let id = block.id.get_or_insert_with(|| self.free_number()).clone();
         if self.lookup.numbers.contains_key(&id) {
             return Err(SessionError::Twice(id));
         }
         let added = self.is_incremental() && self.add_cells(&block)?;
-        self.file.blocks.push(block);
+        self.file.blocks.push(block.clone());
         if !added && let Err(problems) = self.read_again() {
             self.file.blocks.pop();
             return Err(problems.into());
         }
-        Ok(self.update_verdict())
+        self.steps.push(Arc::new((StepEntry::default().place([id]), Some(block))));
+        Ok(())
     }
 
     /// Removes a block and the loads on it, and returns the verdict.
@@ -155,6 +282,11 @@ impl Session {
     /// Returns an error, and removes nothing, if the block is not placed, if a robot holds it, or if the
     /// scene without the block is not valid.
     pub fn remove(&mut self, block: &str) -> Result<Verdict, SessionError> {
+        self.take_away(block)?;
+        Ok(self.update_verdict())
+    }
+
+    fn take_away(&mut self, block: &str) -> Result<(), SessionError> {
         let number = self.block(block)?;
         if let Some(hold) = self.scene.frames[0].holds.iter().find(|h| h.block == number) {
             let robot = self.scene.robots[hold.robot.0].id.clone();
@@ -178,7 +310,8 @@ impl Session {
             // Reading the scene again may change block indices and the tolerance, so the warm start is no longer valid.
             self.guess = WarmStart::default();
         }
-        Ok(self.update_verdict())
+        self.steps.push(Arc::new((StepEntry::default().remove([block]), None)));
+        Ok(())
     }
 
     fn remove_from_file(&mut self, block: &str) {
@@ -194,6 +327,11 @@ impl Session {
     /// Returns an error if the robot or the block does not exist, if the point is not valid, or if the robot holds
     /// another block.
     pub fn hold(&mut self, robot: &str, block: &str, at: Option<Point>) -> Result<Verdict, SessionError> {
+        self.grip(robot, block, at)?;
+        Ok(self.update_verdict())
+    }
+
+    fn grip(&mut self, robot: &str, block: &str, at: Option<Point>) -> Result<(), SessionError> {
         let (robot_id, number) = (self.robot(robot)?, self.block(block)?);
         let grip = Grip::new(number, at, self.scene.blocks[number.0].centroid);
         let point = grip.at;
@@ -211,7 +349,13 @@ impl Session {
         holds.push(grip.by(robot_id));
         holds.sort_by_key(|hold| hold.robot);
         self.grips.insert(robot_id, (block.into(), at));
-        Ok(self.update_verdict())
+        let step = StepEntry::default();
+        let step = match at {
+            None => step.hold(robot, block),
+            Some(at) => step.hold_at(robot, block, [at.x, at.y]),
+        };
+        self.steps.push(Arc::new((step, None)));
+        Ok(())
     }
 
     /// Makes a robot release the block that it holds, and returns the verdict.
@@ -219,6 +363,11 @@ impl Session {
     /// # Errors
     /// Returns an error if the robot does not exist or holds nothing.
     pub fn release(&mut self, robot: &str) -> Result<Verdict, SessionError> {
+        self.let_go(robot)?;
+        Ok(self.update_verdict())
+    }
+
+    fn let_go(&mut self, robot: &str) -> Result<(), SessionError> {
         let id = self.robot(robot)?;
         let holds = &mut self.scene.frames[0].holds;
         let before = holds.len();
@@ -227,7 +376,8 @@ impl Session {
             return Err(SessionError::HoldsNothing(robot.into()));
         }
         self.grips.remove(&id);
-        Ok(self.update_verdict())
+        self.steps.push(Arc::new((StepEntry::default().release([robot]), None)));
+        Ok(())
     }
 
     /// Returns the verdict on the blocks that are placed at present.
@@ -331,13 +481,7 @@ impl Session {
 
     /// Reads all placed blocks again as one scene. Keeps the current scene if this fails.
     fn read_again(&mut self) -> Result<(), SceneError> {
-        let mut file = self.file.clone();
-        // Leave out listed contacts of blocks that were removed.
-        let names: BTreeSet<&str> =
-            (self.file.blocks.iter()).filter_map(|b| b.id.as_deref()).chain(["ground"]).collect();
-        let exists = |name: &String| names.contains(name.as_str());
-        file.contacts.retain(|c| c.bodies.iter().all(exists));
-        let mut scene = Scene::new(file)?;
+        let mut scene = Scene::new(self.file_without_holds())?;
         self.lookup = Lookup::new(&scene);
         let grips = self.grips.iter();
         let holds = grips.filter_map(|(robot, (block, at))| {
@@ -348,6 +492,16 @@ impl Session {
         self.found = Interfaces::new(&scene);
         self.scene = scene;
         Ok(())
+    }
+
+    /// Returns the placed blocks as a scene file, without the listed contacts of blocks that were removed.
+    fn file_without_holds(&self) -> SceneFile {
+        let mut file = self.file.clone();
+        let names: BTreeSet<&str> =
+            (self.file.blocks.iter()).filter_map(|b| b.id.as_deref()).chain(["ground"]).collect();
+        let exists = |name: &String| names.contains(name.as_str());
+        file.contacts.retain(|c| c.bodies.iter().all(exists));
+        file
     }
 
     fn block(&self, name: &str) -> Result<BlockId, SessionError> {
