@@ -90,6 +90,8 @@ class Figure:
 def request_json(options: Mapping[str, Any]) -> str:
     """Returns options as a JSON object, with the names of the options of ``drystone check`` and ``drystone render``."""
     given = {name: value for name, value in options.items() if value is not None}
+    if isinstance(given.get("style"), Mapping):
+        given["style"] = json.dumps(given["style"], default=_geometry.plain)
     if "capacity" in given:
         given["capacity"] = capacity_word(given["capacity"])
     return json.dumps(given, default=_geometry.plain)

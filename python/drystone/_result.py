@@ -53,7 +53,8 @@ class _Answer:
         """Returns a figure of a kind in ``drystone.figure_kinds()``, in a theme in ``drystone.themes()``.
 
         ``width_mm`` is the printed width: 84 for one column of a journal, 174 for two columns. ``options`` are options
-        of ``drystone render``, such as ``amounts=True``, ``block="a"`` and ``no_title=True``.
+        of ``drystone render``, such as ``amounts=True``, ``block="a"`` and ``no_title=True``. ``style`` is the path of a
+        style file, or a dict with what such a file has: ``style={"failure": "#d00", "widths": {"force": 0.06}}``.
 
         For the kind "mechanism", the argument ``at``, such as ``at="tilt"``, selects the margin beyond which it falls, or
         another motion. For the kind "sensitivity", the argument ``margin`` selects the margin. For the kind "capacity", the argument ``capacity`` selects the block and the point, as in

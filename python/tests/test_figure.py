@@ -1,5 +1,8 @@
 """Pictures, reports and notebooks."""
 
+import json
+import re
+
 import pytest
 from conftest import FLOOR, brick, needed
 
@@ -123,3 +126,21 @@ def test_matplotlib(steps):
     assert ds.check(steps).draw(own, forces=False) is own
     assert any(gid.startswith("block:") for gid in (p.get_gid() for p in own.patches))
     plt.close("all")
+
+
+def test_a_style_is_a_file_or_a_dict(lintel, tmp_path):
+    figure = ds.check(lintel).figure
+    style = {"theme": "dark", "page": "#d01234", "widths": {"force": 0.06}}
+    file = tmp_path / "own.json"
+    file.write_text(json.dumps(style), encoding="utf-8")
+    drawn = figure(style=style).svg()
+    assert drawn == figure(style=str(file)).svg() != figure(theme="dark").svg()
+    assert "#d01234" in figure(theme="plain", style={"page": "#d01234"}).svg()
+    wrong = {"failur": "red", "widths": {"force": -1}}
+    file.write_text(json.dumps(wrong), encoding="utf-8")
+    messages = []
+    for given in (wrong, str(file)):
+        with pytest.raises(ds.DrystoneError) as caught:
+            figure(style=given).svg()
+        messages.append(re.sub(r"(style|\S*own\.json): |\d+:\d+: ", "", str(caught.value)))
+    assert messages[0] == messages[1] and "the nearest known key is `failure`" in messages[0]

@@ -19,8 +19,8 @@ request! {
         theme: Option<ThemeChoice> = given.word("theme"),
             arg(long, value_name = "NAME", env = "DRYSTONE_THEME", hide_env_values = true,
                 value_parser = typed_word::<ThemeChoice>());
-        /// A style file (.json or .toml) with your own colours, widths and sizes; `drystone style` prints one to start
-        /// from
+        /// A style file (.json or .toml) with your own colours, widths and sizes, or its content as JSON; `drystone style`
+        /// prints one to start from
         style: Option<PathBuf> = given.text("style").map(PathBuf::from),
             arg(long, value_name = "FILE", env = "DRYSTONE_STYLE", hide_env_values = true);
     }
@@ -49,7 +49,7 @@ impl Word for ThemeChoice {
 impl StyleArgs {
     /// Returns the style file, if one was given.
     pub(crate) fn file(&self) -> Option<&Path> {
-        self.style.as_deref()
+        self.style.as_deref().filter(|style| written(style).is_none())
     }
 
     /// Returns the name of the theme, if one was given and no style file changes it.
@@ -84,9 +84,21 @@ impl StyleArgs {
         match &self.style {
             None => Ok(base.unwrap_or_default()),
             Some(_) if self.is_auto() => Err("--style changes one theme; leave out --theme auto".into()),
-            Some(path) => read(path, base.as_ref()),
+            Some(style) => match written(style) {
+                Some(text) => Theme::read(text, Notation::Json, base.as_ref()).map_err(|mut problems| {
+                    // The text is a value of the command line or of Python, without lines.
+                    problems.0.iter_mut().for_each(|problem| problem.line = 0);
+                    CliError::Style { name: "style".into(), problems }
+                }),
+                None => read(style, base.as_ref()),
+            },
         }
     }
+}
+
+/// Returns the content of a style that is given in place of the name of a file.
+fn written(style: &Path) -> Option<&str> {
+    style.to_str().filter(|text| text.trim_start().starts_with('{'))
 }
 
 fn read(path: &Path, base: Option<&Theme>) -> Result<Theme, CliError> {
