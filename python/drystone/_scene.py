@@ -22,7 +22,7 @@ class Scene:
     in degrees anticlockwise, and y points up. The names of arguments are the keys of a scene file. Arguments that are
     not given have the defaults of the file format. Methods that add a part to a scene change this scene and return it.
 
-    A scene is checked when it is analysed; :meth:`validate` checks a scene immediately.
+    A scene is checked when it is analysed; :meth:`validate` checks a scene immediately, and :meth:`from_dict` too.
 
     >>> scene = Scene(friction=0.6).ground([(-1, -1), (7, -1), (7, 0), (-1, 0)])
     >>> scene.block("post", [(0, 0), (1, 0), (1, 3), (0, 3)], density=2400)
@@ -74,7 +74,15 @@ class Scene:
 
     @classmethod
     def from_dict(cls, file: Mapping[str, Any]) -> Scene:
-        """Makes a scene from a dict with the keys of a scene file; ``drystone: 1`` may be left out."""
+        """Makes a scene from a dict with the keys of a scene file; ``drystone: 1`` and ``blocks`` may be left out.
+
+        Raises :class:`SceneError` with all problems if the scene is not valid. A scene that becomes valid later is built
+        with the methods of this class.
+        """
+        return cls._of_dict(file).validate()
+
+    @classmethod
+    def _of_dict(cls, file: Mapping[str, Any]) -> Scene:
         scene = cls()
         made = json.loads(_dumps({"drystone": 1, **file}))
         made.setdefault("blocks", [])
@@ -419,7 +427,7 @@ def as_scene(scene: AnyScene) -> Scene:
     if isinstance(scene, Scene):
         return scene
     if isinstance(scene, Mapping):
-        return Scene.from_dict(scene)
+        return Scene._of_dict(scene)
     if isinstance(scene, os.PathLike):
         return Scene.from_file(scene)
     kind = type(scene).__name__

@@ -210,3 +210,12 @@ def test_assemblies_of_prisms():
         ds.Scene.from_compas(Assembly([{"block": Box(0, 0, lean=0.2)}]), plane="xy")
     with pytest.raises(ds.DrystoneError, match="thickness="):
         ds.Scene.from_compas(Assembly([{"block": Box(0, 0)}, {"block": Box(0, 1, depth=0.7)}]))
+
+
+def test_a_dict_is_checked_at_once():
+    file = {"blocks": [{"id": "a", "polygon": brick(0, 0), "weight": -1}]}
+    for wrong in (lambda: ds.Scene.from_dict(file), lambda: ds.check(file), lambda: ds.check_many([file])):
+        with pytest.raises(ds.SceneError) as caught:
+            wrong()
+        assert [problem.path for problem in caught.value.problems] == ["blocks[0].weight"]
+    assert repr(ds.Scene.from_dict({})) == "<Scene: 0 blocks>"
