@@ -11,6 +11,7 @@ from ._check import check, check_many
 from ._drystone import __version__, kinds, schema, themes
 from ._errors import DrystoneError, Problem, SceneError
 from ._figure import Figure
+from ._playground import playground
 from ._result import Frame, Result, Results
 from ._scene import Scene
 from ._session import Session
@@ -43,6 +44,7 @@ __all__ = [
     "check",
     "check_many",
     "figure_kinds",
+    "playground",
     "schema",
     "themes",
     "vary",

@@ -131,3 +131,14 @@ def test_nothing_leaks():
     for _ in range(count):
         once()
     assert resident() - before < 8_000_000 + 20 * count
+
+
+def test_the_playground_is_a_file_of_the_package(tmp_path, monkeypatch):
+    page = tmp_path / "playground.html"
+    monkeypatch.setattr("drystone._playground._PAGE", page)
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    with pytest.raises(ds.DrystoneError, match="build.sh"):
+        ds.playground()
+    page.touch()
+    assert opened == [] and ds.playground() == page.as_uri() and opened == [page.as_uri()]
