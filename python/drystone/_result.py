@@ -49,6 +49,18 @@ class _Answer:
     def _table(self, name: str) -> Table:
         return Table(self._native.table(name, self._frame), name)
 
+    def signed_margin(self, kind: str = "tilt") -> float:
+        """Returns one number that is positive if the structure stands and negative if it falls, as a reward of a search.
+
+        It is the distance of the present value of a margin from the nearest limit, as a share: 0 at the limit, at most 1,
+        and at least -1. If the structure stands at no value, it is between -1 and -2, and less if more force is missing.
+        ``kind`` is "tilt" (a share of 90 degrees), "load_factor", "friction_factor", "horizontal_load", "kernel",
+        "sliding", "overturning" or "middle_third"; the last three are positive if the structure stands in this condition. The margin must have been computed: ``check(scene, margins="tilt")``. Of
+        several frames, the least number counts. It is not a number (``nan``) if a verdict that it needs is undecided, and
+        for a structure that falls, with ``verdict_only=True``.
+        """
+        return self._native.signed_margin(kind, self._frame)
+
     def figure(self, kind: str = "forces", *, theme: str | None = None, width_mm: float | None = None, **options: Any) -> Figure:
         """Returns a figure of a kind in ``drystone.figure_kinds()``, in a theme in ``drystone.themes()``.
 
@@ -275,7 +287,11 @@ class Results(Sequence["Result | SceneError"]):
 
     @property
     def table(self) -> Table:
-        """A table with a row for each frame of each valid scene: verdict, sums of forces and margins."""
+        """A table with a row for each frame of each valid scene: verdict, sums of forces, margins and signed margins.
+
+        For each robot that holds a block somewhere, the column ``force_NAME`` has the size of its force in N, and ``nan``
+        where it holds nothing.
+        """
         natives = [None if isinstance(one, SceneError) else one._native for one in self._results]
         return Table(_drystone.summary(natives), "results")
 

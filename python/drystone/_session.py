@@ -95,6 +95,10 @@ class Session:
         """Returns the margins of the placed blocks: those of the given kinds, or all margins if no kind is given."""
         return self.check(margins=kinds or True).margins
 
+    def signed_margin(self, kind: str = "tilt") -> float:
+        """Returns one number that is positive if the placed blocks stand: :meth:`Result.signed_margin`."""
+        return self.check(margins=kind).signed_margin(kind)
+
     def capacity(self, block: str, *points: Point, for_all: str | None = None) -> Any:
         """Returns all forces (Fx, Fy) that a block can carry at a point, in addition to its present loads.
 

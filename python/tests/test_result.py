@@ -3,6 +3,7 @@
 import copy
 import hashlib
 import json
+import math
 import pickle
 import subprocess
 import sys
@@ -265,3 +266,37 @@ def test_results_are_pickled_and_copied(lintel, steps, tmp_path):
     assert pickle.loads(pickle.dumps(varied)) == varied == copy.deepcopy(varied)
     record = result.frames[0].margins
     assert pickle.loads(pickle.dumps(record)) == record == copy.deepcopy(record)
+
+
+def test_one_number_says_how_far_a_structure_is_from_its_limit():
+    def pushed(push):
+        scene = ds.Scene(friction=0.5).ground(FLOOR).block("a", brick(0, 0, 2.0, 1.0), weight=8)
+        return scene.load("a", (push, 0), at=(1, 0.5))
+
+    for push, expected in ((2, 0.5), (4 - 1e-9, 0), (8, -0.5)):
+        result = ds.check(pushed(push), margins="load_factor")
+        assert result.signed_margin("load_factor") == pytest.approx(expected, abs=1e-6)
+        assert result.frames[0].signed_margin("load_factor") == result.frames[0].signed_margins.load_factor
+    many = ds.check_many([pushed(2), pushed(8)], margins=["load_factor", "tilt"])
+    assert many.table["signed_load_factor"] == pytest.approx([0.5, -0.5])
+    assert many.table["signed_tilt"].tolist() == [one.signed_margin() for one in many]
+    assert "signed_kernel" not in many.table.columns
+    with pytest.raises(ds.DrystoneError, match='margins="kernel"'):
+        result.signed_margin("kernel")
+    with pytest.raises(ds.DrystoneError, match="there are tilt, horizontal_load"):
+        result.signed_margin("friction")
+    session = ds.Session(ds.Scene(friction=0.6).ground(FLOOR))
+    session.place("a", brick(0, 0))
+    assert session.signed_margin() == pytest.approx(math.degrees(math.atan(0.6)) / 90)
+    session.place("b", brick(1.6, 1))
+    assert -1 <= session.signed_margin() < 0
+    steps = ds.check(session.scene(), margins="tilt")
+    assert steps.signed_margin() == session.signed_margin() == steps.frames[1].signed_margin()
+    late = ds.check(pushed(8), margins="kernel", verdict_only=True)
+    assert math.isnan(late.signed_margin("kernel"))
+
+
+def test_the_table_of_many_scenes_has_the_force_of_each_robot(steps):
+    force = ds.check_many([steps, ds.Scene()]).table["force_crane"]
+    (x,), (y,) = (ds.check(steps).frames[1].robots[name] for name in ("force_x", "force_y"))
+    assert force == pytest.approx([math.nan, math.hypot(x, y), math.nan, math.nan], nan_ok=True)

@@ -2,6 +2,7 @@
 //! scenes.
 
 mod robots;
+mod signed;
 
 use std::sync::Arc;
 

@@ -24,7 +24,7 @@ use crate::entry::cli;
 use crate::entry::cli::error::CliError;
 use crate::entry::cli::vary::{Ordinate, Varied};
 use crate::entry::request::{CheckArgs, Refused, in_json, read_json};
-use crate::mechanics::analysis::{self, Verdict};
+use crate::mechanics::analysis::{self, MarginKind, Verdict};
 use crate::mechanics::certificate::Certificate;
 use crate::mechanics::scene::format::SceneFile;
 use crate::mechanics::scene::{Scene, SceneError, isolate};
@@ -121,6 +121,28 @@ impl Analysis {
     /// Returns true if every frame stands.
     fn stands(&self) -> bool {
         self.analysis.verdict() == Verdict::Stable
+    }
+
+    /// Returns the signed margin of one frame, or the least one of all frames if `frame` is `None`. It is not a number if it
+    /// is not known.
+    fn signed_margin(&self, py: Python<'_>, kind: &str, frame: Option<usize>) -> PyResult<f64> {
+        let Some(kind) = MarginKind::with_sign().find(|own| own.word() == kind) else {
+            let known: Vec<&str> = MarginKind::with_sign().map(MarginKind::word).collect();
+            return Err(fault(py, &format!("there is no signed margin {kind}; there are {}", known.join(", "))));
+        };
+        let mut least = f64::INFINITY;
+        for solved in self.analysis.each().filter(|solved| frame.is_none_or(|frame| frame == solved.number)) {
+            if !solved.found.margins.as_ref().is_some_and(|margins| margins.kinds.has(kind)) {
+                let name = kind.word();
+                return Err(fault(py, &format!("the margin {name} was not computed; check with margins=\"{name}\"")));
+            }
+            let number = solved.signed_margin(kind).unwrap_or(f64::NAN);
+            least = if number.is_nan() { number } else { least.min(number) };
+            if least.is_nan() {
+                break;
+            }
+        }
+        Ok(least)
     }
 
     /// Returns the result in the form that `check --json` prints. The result states `file` as the name of the scene

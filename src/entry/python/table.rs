@@ -1,6 +1,7 @@
 //! [`Table`]: results as a table for Python: either columns for numpy (numbers as bytes, texts as a list), or an Arrow
 //! C stream.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -11,7 +12,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyCapsule, PyList, PyType};
 
 use crate::geometry::Vector;
-use crate::mechanics::analysis::{Analysis, Contact, ContactKind, End, Failure, FrameAnalysis, MarginKind, RobotForce};
+use crate::mechanics::analysis::{
+    Analysis, Contact, ContactKind, End, Failure, FrameAnalysis, MarginKind, RobotForce, SolvedFrame,
+};
 use crate::mechanics::scene::{BlockId, BodyId, Scene};
 
 /// One column.
@@ -143,36 +146,47 @@ impl Table {
 pub(super) fn summary(analyses: Vec<Option<Py<super::Analysis>>>) -> Table {
     let valid = analyses.iter().enumerate();
     let valid = valid.filter_map(|(n, a)| Some((n, &*a.as_ref()?.get().analysis)));
-    let all: Vec<(usize, (usize, &Analysis))> =
-        valid.flat_map(|(n, analysis)| (0..analysis.frames.len()).map(move |frame| (frame, (n, analysis)))).collect();
-    let numbered: Vec<(usize, (usize, &FrameAnalysis))> =
-        all.iter().map(|(frame, (_, analysis))| (*frame, (*frame, &*analysis.frames[*frame]))).collect();
-    let mut names = Rows::new(all);
-    names.whole("scene", |row| row.0 as i64);
-    names.columns.rotate_right(1);
-    let scenes = names.rows.iter();
-    let titles = scenes.map(|(frame, (_, analysis))| analysis.given().frames()[*frame].title.clone());
-    let titles = Column::Word(titles.collect());
-    names.columns.push(("title".into(), titles));
-    let mut rows = Rows::new(numbered);
-    rows.columns = names.columns;
-    rows.word("verdict", |row| row.1.verdict.word().into());
-    rows.whole("contacts", |row| row.1.contacts.len() as i64);
-    rows.whole("failures", |row| row.1.failures.len() as i64);
-    rows.real("weight", |row| row.1.weight);
-    rows.real("total_force", |row| row.1.total_force);
-    rows.real("total_sticking", |row| row.1.total_sticking);
-    let has_margins = rows.rows.iter().any(|(_, row)| row.1.margins.is_some());
+    let all = valid.flat_map(|(n, analysis)| analysis.each().map(move |solved| (solved.number, (n, solved))));
+    let mut rows = Rows::new(all.collect());
+    rows.whole("scene", |row| row.0 as i64);
+    rows.columns.rotate_right(1);
+    rows.word("title", |row| row.1.frame().title.clone());
+    rows.word("verdict", |row| row.1.found.verdict.word().into());
+    rows.whole("contacts", |row| row.1.found.contacts.len() as i64);
+    rows.whole("failures", |row| row.1.found.failures.len() as i64);
+    rows.real("weight", |row| row.1.found.weight);
+    rows.real("total_force", |row| row.1.found.total_force);
+    rows.real("total_sticking", |row| row.1.found.total_sticking);
+    let robots = |solved: &SolvedFrame<'_>| {
+        let scene = solved.scene;
+        let force = |held: &RobotForce| (scene.robots()[held.robot.0].id.clone(), held.force.norm());
+        solved.found.robots.iter().map(force).collect::<Vec<_>>()
+    };
+    let held = rows.rows.iter().flat_map(|(_, row)| robots(&row.1).into_iter().map(|robot| robot.0));
+    for name in held.collect::<BTreeSet<_>>() {
+        let force = |solved: &SolvedFrame<'_>| {
+            robots(solved).into_iter().find(|robot| robot.0 == name).map_or(f64::NAN, |robot| robot.1)
+        };
+        rows.real(format!("force_{name}"), |row| force(&row.1));
+    }
+    let has_margins = rows.rows.iter().any(|(_, row)| row.1.found.margins.is_some());
     for kind in MarginKind::of_frame().filter(|_| has_margins) {
         let (name, ends) = (kind.word(), kind.about().ends);
         for (end, side, sign) in [(0, "left", -1.0), (1, "right", 1.0)] {
             let value = |row: &FrameAnalysis| value(row.margins.as_ref().and_then(|margins| margins.end(kind, end)));
             match ends {
-                [true, true] => rows.real(format!("{name}_{side}"), |row| sign * value(row.1)),
-                _ if ends[end] => rows.real(name, |row| value(row.1)),
+                [true, true] => rows.real(format!("{name}_{side}"), |row| sign * value(row.1.found)),
+                _ if ends[end] => rows.real(name, |row| value(row.1.found)),
                 _ => {}
             }
         }
+    }
+    let asked = |kind: MarginKind| {
+        let mut margins = rows.rows.iter().filter_map(|(_, row)| row.1.found.margins.as_ref());
+        margins.any(|margins| margins.kinds.has(kind))
+    };
+    for kind in MarginKind::with_sign().filter(|kind| asked(*kind)).collect::<Vec<_>>() {
+        rows.real(format!("signed_{}", kind.word()), |row| row.1.signed_margin(kind).unwrap_or(f64::NAN));
     }
     rows.table()
 }

@@ -6,7 +6,9 @@ use super::margin::{case, margins_of};
 use super::question::{capacity, conditions, movement, placement, removable, vehicle, wedging};
 use super::sensitivity::sensitivity;
 use crate::geometry::Point;
-use crate::mechanics::analysis::{Contact, EffectName, Failure, Proof, RobotForce, SolveReport, SolvedFrame, Stages};
+use crate::mechanics::analysis::{
+    Contact, EffectName, Failure, MarginKind, Proof, RobotForce, SolveReport, SolvedFrame, Stages,
+};
 use crate::mechanics::scene::{BlockId, Scene};
 use crate::mechanics::statics::interface::ContactKind;
 
@@ -44,6 +46,12 @@ pub(super) fn frame<'a>(solved: SolvedFrame<'a>, blocks: Option<&[BlockId]>, tim
         corners_decide: frame.corners_decide.then_some(true),
         mechanism: motions(scene, &frame.mechanism),
         margins: frame.margins.as_ref().map(|margins| margins_of(scene, margins)),
+        signed_margins: Json::object(MarginKind::with_sign().map(|kind| {
+            let is_asked = frame.margins.as_ref().is_some_and(|margins| margins.kinds.has(kind));
+            let number = || Json::Number(solved.signed_margin(kind).unwrap_or(f64::NAN));
+            (kind.word(), if is_asked { number() } else { Json::Absent })
+        }))
+        .unless_empty(),
         sensitivity: frame.sensitivity.as_ref().map(|found| sensitivity(solved, found)),
         placement: frame.placement.as_ref().map(|found| placement(scene, found)),
         cases: Json::list(cases.iter().flat_map(|cases| &cases.each).map(|own| case(scene, own))).unless_empty(),

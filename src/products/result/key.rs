@@ -227,6 +227,18 @@ static MARGINS: [Key; FRAME_KINDS + 5] = of_margins(Margin, &[
     key("mechanisms", Object, "motion just beyond each margin; empty for a margin that is unbounded or null, and for a margin that was not requested").of(&MECHANISMS),
 ]);
 
+/// The keys of the margins with a sign.
+static SIGNED: [Key; FRAME_KINDS - 1] = {
+    let mut keys = [key("", Number, ""); FRAME_KINDS - 1];
+    let mut k = 0;
+    while k < FRAME_KINDS - 1 {
+        let about = MarginKind::ALL[k + 1].about();
+        keys[k] = key(about.words[0], Number, about.name).when(IF_MARGIN_REQUESTED);
+        k += 1;
+    }
+    keys
+};
+
 /// How a structure follows a movement of a support.
 const MOVEMENT: &[Key] = &[
     key("ground", Text, "part of the ground that moves"),
@@ -363,6 +375,7 @@ pub static KEYS: &[Key] = &[
         key("corners_decide", Flag, "whether the verdict would be the other one if corners that touch carried force, or if they did not").when("only if `true`"),
         key("mechanism", Motions, "velocities of the blocks as the collapse begins; empty if the frame stands"),
         key("margins", Object, "how far the frame is from collapse: the extreme values at which it stands; a margin is null if the frame stands at no value, if the margin does not exist in this frame, or if no value was confirmed (a notice then says so)").when(IF_MARGINS_REQUESTED).of(&MARGINS),
+        key("signed_margins", Object, "for each margin, one number that is positive if the frame stands and negative if it falls: how far the present value is from the nearest end of the interval, as a share from −1 to 1; below −1 if the frame stands at no value; of `sliding`, `overturning` and `middle_third`, for the changed structure").when("with `--margins`, except for `friction` and `robots`").of(&SIGNED),
         key("sensitivity", Object, "exact derivatives of the ends of one margin's interval with respect to vertices, weights, friction and loads, for unchanged contacts. At a kink, where a derivative differs between the possible forces and mechanisms, it is `at_kink`").when("with `--sensitivity`").of(&[
             key("parameter", Word(&["friction", "tilt", "horizontal_load", "kernel", "load_factor", "friction_factor"]), "parameter of the margin"),
             key("ends", Objects, "ends of the interval that have a value and a mechanism").of(&[

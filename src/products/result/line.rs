@@ -115,7 +115,8 @@ impl Fields {
 
     /// Returns the questions whose answers are selected.
     pub fn questions(&self) -> impl Iterator<Item = Question> {
-        ANSWERS.into_iter().filter(|(_, key)| self.ask(&["frames", key])).map(|(question, _)| question)
+        let answers = ANSWERS.into_iter().chain([(Question::Margins, "signed_margins")]);
+        answers.filter(|(_, key)| self.ask(&["frames", key])).map(|(question, _)| question)
     }
 
     /// Selects, in addition, the answers to all questions that are asked, unless parts of them are already selected.

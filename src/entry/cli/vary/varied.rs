@@ -142,7 +142,8 @@ impl Varied {
         let mut options =
             Options { deadline: level.options().deadline, accuracy: level.accuracy, ..Options::default() };
         for name in named {
-            if let Some(kind) = MarginKind::all().into_iter().find(|kind| kind.word() == name) {
+            let word = name.trim_start_matches("signed_margins.");
+            if let Some(kind) = MarginKind::all().into_iter().find(|kind| kind.word() == word) {
                 options.ask.margins = options.ask.margins.with(kind);
             }
             options.ask.placement |= name.split('.').next() == Some("placement");

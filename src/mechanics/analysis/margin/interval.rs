@@ -70,7 +70,7 @@ impl End {
 
     /// Returns the outermost value on this side at which the frame is known to stand. Returns `otherwise` if the
     /// interval is unbounded on this side.
-    fn stands(&self, otherwise: f64) -> f64 {
+    pub(in crate::mechanics::analysis) fn stands(&self, otherwise: f64) -> f64 {
         match self {
             End::At { value, .. } => *value,
             End::Unconfirmed { stands, .. } => *stands,

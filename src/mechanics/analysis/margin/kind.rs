@@ -308,6 +308,29 @@ impl MarginKind {
     /// The largest friction coefficient that is tried.
     pub const MAX_FRICTION: f64 = 1e3;
 
+    /// Returns the margins with a sign ([`SolvedFrame::signed_margin`](super::super::SolvedFrame::signed_margin)): all but
+    /// [`MarginKind::Friction`] and [`MarginKind::Robots`].
+    pub(crate) fn with_sign() -> impl Iterator<Item = MarginKind> {
+        MarginKind::of_frame().filter(|kind| *kind != MarginKind::Friction)
+    }
+
+    /// Returns the distance of the present value of the parameter from one end of its interval, as a share: 0 at this end,
+    /// positive inside, and negative outside.
+    pub(in crate::mechanics::analysis) fn share(self, kernel: f64, end: f64, is_upper: bool) -> f64 {
+        let outward = if is_upper { end } else { -end };
+        match self {
+            MarginKind::Tilt => outward / 90.0,
+            MarginKind::HorizontalLoad => outward,
+            MarginKind::Kernel if !is_upper => 1.0,
+            MarginKind::Kernel if end < kernel => end / kernel - 1.0,
+            MarginKind::Kernel => (end - kernel) / (1.0 - kernel),
+            _ => {
+                let ratio = if is_upper { end } else { 1.0 / end };
+                if ratio < 1.0 { ratio - 1.0 } else { 1.0 - 1.0 / ratio }
+            }
+        }
+    }
+
     /// Returns the margins of the whole frame: all but the limits of robots.
     pub(crate) fn of_frame() -> impl Iterator<Item = MarginKind> {
         MarginKind::ALL.into_iter().filter(|kind| *kind != MarginKind::Robots)
