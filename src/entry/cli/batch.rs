@@ -276,7 +276,14 @@ impl SceneWork {
         let lines_before = record.line.map_or(0, |n| n - 1);
         let scene = match read_in_time(&input::shown(record), lines_before, bytes.to_vec(), &level) {
             Ok(Ok((scene, _))) => scene,
-            Ok(Err(problems)) => return Ok(self.refused(origin, &problems.list)),
+            Ok(Err(mut problems)) => {
+                let early = problems.list.iter_mut().filter(|problem| problem.code == Code::EndsEarly);
+                early.filter(|_| record.line.is_some()).for_each(|problem| {
+                    problem.message = "the line ends too early".into();
+                    problem.help = problem.help.replace("part of the file", "part of the line");
+                });
+                return Ok(self.refused(origin, &problems.list));
+            }
             Err(late) => return Ok(self.refused(origin, &[Problem::alone(Code::NotReadable, late, "")])),
         };
         let options = match self.options(&level, &scene) {

@@ -77,6 +77,14 @@ fn problems_are_reported_with_their_positions() {
 }
 
 #[test]
+fn a_line_that_is_cut_off_says_so() {
+    let out = Bench::new().run_with("batch", b"{ \"drystone\": 1, \"blocks\": [\n").out;
+    let problem = &lines(&out)[0]["problems"][0];
+    assert_eq!(problem["message"], "the line ends too early");
+    assert!(problem["hint"].as_str().is_some_and(|hint| hint.ends_with("is a part of the line missing?")), "{problem}");
+}
+
+#[test]
 fn several_threads_give_the_same_answers_as_one_thread_and_as_check() {
     let bench = Bench::new();
     let mut input = String::new();
