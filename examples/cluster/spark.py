@@ -68,14 +68,13 @@ def analysed(binary, fields, pids):
     return partition
 
 
-def kill_some(pids, count, after):
-    """Kills `count` of the processes of drystone while they run, one every `after` seconds.
+def kill_some(pids, count, after, ended):
+    """Kills `count` of the processes of drystone while they run, one every `after` seconds, until the event `ended`.
 
     `pids` is a folder with a file for each running process, whose name is the id of the process.
     """
     killed = 0
-    while killed < count:
-        time.sleep(after)
+    while killed < count and not ended.wait(after):
         marks = list(pathlib.Path(pids).iterdir())
         if marks:
             mark = random.choice(marks)
@@ -102,14 +101,17 @@ def main():
     spark.sparkContext.setLogLevel("ERROR")
     start = time.perf_counter()
     with tempfile.TemporaryDirectory() as pids:
-        if options.kill:
-            threading.Thread(target=kill_some, args=(pids, options.kill, options.after), daemon=True).start()
+        ended = threading.Event()
+        killer = threading.Thread(target=kill_some, args=(pids, options.kill, options.after, ended), daemon=True)
+        killer.start()
         lines = spark.sparkContext.textFile(options.corpus, options.partitions).zipWithIndex()
         pairs = lines.map(lambda pair: (pair[1] + 1, pair[0]))
         binary = options.drystone if os.sep not in options.drystone else os.path.abspath(options.drystone)
         rows = pairs.mapPartitions(analysed(binary, options.fields, pids))
         schema = "number long, scene string, verdict string, problems string"
         spark.createDataFrame(rows, schema).write.mode("overwrite").parquet(options.parquet)
+        ended.set()
+        killer.join()
     seconds = time.perf_counter() - start
 
     answers = spark.read.parquet(options.parquet)

@@ -3,6 +3,10 @@
 import ast
 import importlib.util
 import json
+import os
+import shutil
+import subprocess
+import sys
 
 from conftest import ROOT, needed
 
@@ -61,3 +65,16 @@ def test_the_scenes_of_the_gallery_are_those_of_its_script():
     for name, structure in gallery.STRUCTURES.items():
         written, ours = ((ROOT / f"assets/gallery/{name}.json").read_text(encoding="utf-8"), structure().text())
         assert json.loads(written) == json.loads(ours), name
+
+
+def test_the_client_of_batch_shows_forces_and_problems(tmp_path):
+    program = tmp_path / "drystone"
+    program.write_text(f'#!/bin/sh\nexec {sys.executable} -m drystone "$@"\n', encoding="utf-8")
+    program.chmod(0o755)
+    path = os.pathsep.join([str(tmp_path), os.environ["PATH"]])
+    if os.name == "nt" or not shutil.which("sh"):
+        return
+    words = [sys.executable, str(ROOT / "examples/batch_client.py")]
+    lines = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "PATH": path}, check=True).stdout.splitlines()
+    assert [line.split()[1] for line in lines[:3]] == ["stable", "stable", "unstable"]
+    assert lines[2].endswith(" N") and "overlap by 0.4 m" in lines[3]
