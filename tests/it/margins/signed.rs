@@ -8,7 +8,7 @@ use crate::oracle::random;
 use crate::structure::{on_floor, rectangle, scene};
 
 fn number(file: &Value, kind: MarginKind) -> Option<f64> {
-    let analysis = Analysis::with(&scene(file), &Options::default().margins(true));
+    let analysis = Analysis::with(&scene(file), &Options::default().margins(drystone::analysis::MarginKinds::ALL));
     analysis.at(0).signed_margin(kind)
 }
 
@@ -78,7 +78,7 @@ fn a_margin_without_meaning_or_without_a_present_value() {
 fn the_sign_is_that_of_the_verdict_in_random_scenes() {
     let mut counts = [0; 3];
     for n in 0..60 {
-        let analysis = Analysis::with(&scene(&random::scene(n).1), &Options::default().margins(true));
+        let analysis = Analysis::with(&scene(&random::scene(n).1), &Options::default().margins(drystone::analysis::MarginKinds::ALL));
         for solved in analysis.each() {
             for kind in [MarginKind::Tilt, MarginKind::LoadFactor, MarginKind::FrictionFactor, MarginKind::Kernel] {
                 let Some(number) = solved.signed_margin(kind) else { continue };
