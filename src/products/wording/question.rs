@@ -183,8 +183,8 @@ pub fn removable_rows(scene: &Scene, rows: &[Removable]) -> Vec<[String; 3]> {
 const MAX_NAMED_JOINTS: usize = 3;
 
 /// Describes a movement: `left moves by (−0.01, 0) m and turns by 0.2°`.
-pub fn movement(scene: &Scene, moved: &SupportMovement) -> String {
-    let movement = &scene.movements()[moved.number];
+pub fn movement(scene: &Scene, number: usize) -> String {
+    let movement = &scene.movements()[number];
     let by = (movement.translation.norm() > 0.0)
         .then(|| format!("moves by {}", place(Point::from(movement.translation), scene.units())));
     let turns = (movement.rotation != 0.0).then(|| format!("turns by {}°", digits(movement.rotation.to_degrees())));
@@ -225,7 +225,7 @@ pub fn cracks(solved: SolvedFrame<'_>, cracked: &Cracked) -> String {
 /// open or slide and by how much.
 pub fn movement_sentence(solved: SolvedFrame<'_>, moved: &SupportMovement) -> String {
     let SolvedFrame { scene, .. } = solved;
-    let first = movement(scene, moved);
+    let first = movement(scene, moved.number);
     match &moved.outcome {
         MovementOutcome::Follows(cracked) => format!(
             "if {first}, the structure pushes it with {}; {} (small displacements; sliding also opens a joint)",
@@ -261,7 +261,7 @@ pub fn movement_sentences(solved: SolvedFrame<'_>) -> Vec<String> {
 pub fn movement_headline(solved: SolvedFrame<'_>) -> Option<String> {
     let SolvedFrame { scene, found, .. } = solved;
     let moved = found.movements.first()?;
-    let first = movement(scene, moved);
+    let first = movement(scene, moved.number);
     let more = match found.movements.len() {
         1 => String::new(),
         count => format!(" (1 of {count} movements)"),

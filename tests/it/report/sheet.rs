@@ -100,8 +100,61 @@ fn a_case_is_written_with_its_factors_and_a_vehicle_with_its_axles() {
     {
         assert!(wall.contains(words), "{words}: {wall}");
     }
-    assert!(bridge.contains("| axles of the vehicle | 9000 kN, 40 kN 1.2 m behind |"), "{bridge}");
-    assert!(bridge.contains("| axle 1 on ") && bridge.contains("falls · under its vehicle"), "{bridge}");
+    for words in ["| 1 | 9000 | 0 |\n| 2 | 40 | 1.2 |", "| axle 1 on ", "falls · under its vehicle"] {
+        assert!(bridge.contains(words), "{words}: {bridge}");
+    }
+}
+
+/// The figure of the vehicle is the first after the outline, the table of the collapse has the joints of this figure, and each
+/// load case and each movement has a figure.
+#[test]
+fn a_vehicle_its_cases_and_its_movements_have_figures_and_tables() {
+    let read = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/questions/{name}.json"));
+        std::fs::read_to_string(path).expect("a scene")
+    };
+    let [bridge, wall, arch] = ["bridge-vehicle", "retaining-wall", "spreading-arch"].map(read);
+    let folder = Folder::new(&[("bridge.json", &bridge), ("wall.json", &wall), ("arch.json", &arch)]);
+    for name in ["bridge", "wall", "arch"] {
+        folder.done(&format!("report {name}.json -o {name}.md"));
+    }
+    folder.done("report bridge.json -o bridge.json");
+    let result: serde_json::Value = serde_json::from_str(&folder.text("bridge.json")).expect("JSON");
+    let positions = result["scenes"][0]["frames"][0]["vehicle"]["positions"].as_array().expect("positions").len();
+    let [page, wall, arch] = ["bridge.md", "wall.md", "arch.md"].map(|name| folder.text(name));
+    let captions: Vec<&str> = page.lines().filter(|line| line.starts_with('*') && !line.starts_with("**")).collect();
+    assert!(captions[1].contains("The load factor for each position of the first axle"), "{captions:?}");
+    let rows = page.split("The positions with the least load factors").nth(1).expect("a table");
+    let rows = rows.lines().skip(2).take_while(|line| !line.is_empty());
+    assert_eq!(rows.filter(|line| line.starts_with("| ") && line.contains("1: ")).count(), 12, "{page}");
+    assert!(page.contains("| **3.851** | **to the right** | **1: A5** | **1.89** |"), "{page}");
+    folder.done("report bridge.json -o full.md --full");
+    let full = folder.text("full.md");
+    assert_eq!(full.lines().filter(|line| line.contains("to the ") && line.contains("1: ")).count(), positions);
+    for case in ["earth alone", "wind"] {
+        assert!(wall.contains(&format!("Load case {case}: the forces of one possible balance.*")), "{wall}");
+    }
+    assert_eq!(arch.matches("How the structure cracks if right moves by").count(), 2 * 2, "{arch}");
+    assert!(arch.contains("| movement of a support | right moves by"), "{arch}");
+}
+
+/// Only a report that is not full adds up the loads after the twelfth.
+#[test]
+fn a_full_report_lists_all_loads() {
+    let load = |number: usize| format!(r#"{{ "block": "a", "at": [0, {number}e-1], "force": [9{number}, -50] }}"#);
+    let loads: Vec<String> = (0..20).map(load).collect();
+    let text = format!(
+        r#"{{ "drystone": 1, "density": 2400, "ground": [{{ "polygon": [[-1, -1], [3, -1], [3, 0], [-1, 0]] }}],
+        "blocks": [{{ "id": "a", "polygon": [[0, 0], [1, 0], [1, 2], [0, 2]] }}], "loads": [{}] }}"#,
+        loads.join(",")
+    );
+    let folder = Folder::new(&[("a.json", &text)]);
+    for (more, rows) in [("", 12), (" --full", 20)] {
+        folder.done(&format!("report a.json -o a.md{more}"));
+        let page = folder.text("a.md");
+        assert_eq!(page.lines().filter(|line| line.starts_with("| a | 0 |")).count(), rows, "{page}");
+        assert_eq!(page.contains("| 8 more, together |"), more.is_empty(), "{page}");
+    }
 }
 
 /// The collapse at the least friction slides with this friction, not with the present one.

@@ -33,7 +33,7 @@ pub(super) fn words(analysis: &Analysis, frame: usize, options: &Options) -> Vec
         }
         other => without_state(other).to_owned(),
     };
-    vec![movement(scene, moved), pushes]
+    vec![movement(scene, moved.number), pushes]
 }
 
 /// Displaces the blocks and the support. Returns false if the frame does not follow a movement.

@@ -35,7 +35,8 @@ impl Collapse {
             // The elementary mechanism is the one that the figure shows.
             Verdict::Unstable => (analysis.alone(number)?.elementary().frames[0].mechanism.clone(), None),
             Verdict::Stable => {
-                let toward = governing.kind.filter(|kind| kind.changes_loads());
+                // The figure of the vehicle shows its own collapse.
+                let toward = governing.kind.filter(|kind| kind.changes_loads() && !has_vehicle(found));
                 match toward.and_then(|toward| analysis.edge(number, toward)) {
                     Some((_, mechanism)) => (mechanism, toward),
                     None => (governing.mechanism.to_vec(), None),
@@ -148,6 +149,11 @@ impl Collapse {
         };
         (grid, note)
     }
+}
+
+/// True if the headline margin of a frame that stands is that of its vehicle.
+pub(super) fn has_vehicle(found: &FrameAnalysis) -> bool {
+    found.verdict == Verdict::Stable && found.vehicle.as_ref().is_some_and(|own| own.governing.is_some())
 }
 
 /// Returns a parameter whose figure shows a collapse, if the headline margin has none: factor on the loads, tilt, or

@@ -1,15 +1,17 @@
-//! Makes the tables of the inputs of a frame: [`materials`], [`loads`], [`robots`] and [`facts`].
+//! Makes the tables of the inputs of a frame: [`materials`], [`loads`], [`vehicle`], [`robots`] and [`facts`].
 
 use super::Grid;
 use super::unit::Units;
 use crate::geometry::{Vector, range_of};
+use crate::mechanics::analysis::SolvedFrame;
 use crate::mechanics::scene::format::UnitsEntry;
 use crate::mechanics::scene::{Axle, BlockId, Case, CornerContacts, Limits, Load, Scene, Vehicle};
 use crate::products::wording::number::{amount, counted, digits, place, quantity, tenths};
+use crate::products::wording::question;
 use crate::text::{first_of, line};
 
-/// Largest number of loads, robots or pairs of materials in a table.
-const MAX_ROWS: usize = 12;
+/// Largest number of loads, robots or pairs of materials in a table, unless the report is full.
+pub(super) const MAX_ROWS: usize = 12;
 /// A row of the table of loads names at most this many blocks.
 const MAX_NAMED: usize = 3;
 
@@ -88,8 +90,10 @@ pub(super) fn factors(given: &Scene, case: &Case) -> String {
 }
 
 /// Makes a table with a row for each load of a frame, also for the axles of a vehicle at the position that governs: loads
-/// that the scene as it is `given` does not have. Loads after the first [`MAX_ROWS`] share one row with their sum.
-pub(super) fn loads(given: &Scene, scene: &Scene, number: usize, units: Units) -> Grid {
+/// that the scene as it is `given` does not have. Loads after the first `most` share one row with their sum.
+pub(super) fn loads(given: &Scene, solved: SolvedFrame<'_>, most: usize) -> Grid {
+    let SolvedFrame { scene, number, .. } = solved;
+    let units = Units::new(solved);
     let axles_from = given.loads.iter().map(|load| load.entry + 1).max().unwrap_or(0);
     let placed = &scene.frames[number].placed;
     let loads = scene.loads_on(placed);
@@ -118,7 +122,7 @@ pub(super) fn loads(given: &Scene, scene: &Scene, number: usize, units: Units) -
         // The figures write this id at the load.
         scene.load_id(load).map_or(target.clone(), |id| format!("{}: {target}", line(id))) + &fixed
     };
-    for load in loads.iter().take(MAX_ROWS) {
+    for load in loads.iter().take(most) {
         let mut cells = vec![
             target(load),
             metres.write(load.at.x),
@@ -129,8 +133,8 @@ pub(super) fn loads(given: &Scene, scene: &Scene, number: usize, units: Units) -
         cells.extend(turns.then(|| torques.write(load.torque)));
         grid.add("", cells);
     }
-    if loads.len() > MAX_ROWS {
-        let rest = &loads[MAX_ROWS..];
+    if loads.len() > most {
+        let rest = &loads[most..];
         let sum: Vector = rest.iter().map(|l| l.force).sum();
         let what = format!("{} more, together", rest.len());
         let mut cells = vec![what, "–".into(), "–".into(), newtons.write(sum.norm()), direction(sum)];
@@ -166,11 +170,11 @@ fn direction(force: Vector) -> String {
 }
 
 /// Makes a table of the robots that hold blocks in a frame, with the limits of their forces and torques. Robots after
-/// the first [`MAX_ROWS`] are only counted.
-pub(super) fn robots(scene: &Scene, number: usize) -> Grid {
+/// the first `most` are only counted.
+pub(super) fn robots(scene: &Scene, number: usize, most: usize) -> Grid {
     let holds = &scene.frames[number].holds;
     let mut grid = Grid::new("", &["robot", "holds", "at", "limits: horizontal, vertical, torque"]);
-    for hold in holds.iter().take(MAX_ROWS) {
+    for hold in holds.iter().take(most) {
         let robot = &scene.robots[hold.robot.0];
         let cells = [
             line(&robot.id),
@@ -180,9 +184,21 @@ pub(super) fn robots(scene: &Scene, number: usize) -> Grid {
         ];
         grid.add("", cells);
     }
-    if holds.len() > MAX_ROWS {
-        let more = format!("{} more", holds.len() - MAX_ROWS);
+    if holds.len() > most {
+        let more = format!("{} more", holds.len() - most);
         grid.add("", [more, String::new(), String::new(), String::new()]);
+    }
+    grid
+}
+
+/// Makes a table of the axles of the vehicle, if the scene has one.
+pub(super) fn vehicle(scene: &Scene, units: Units) -> Grid {
+    let axles = scene.vehicle.iter().flat_map(|vehicle| &vehicle.axles);
+    let newtons = units.newtons(axles.clone().map(|axle| axle.weight));
+    let metres = units.lengths(axles.clone().map(|axle| axle.offset));
+    let mut grid = Grid::new("", &["axle".to_owned(), newtons.head("weight"), metres.head("behind the first")]);
+    for (number, axle) in axles.enumerate() {
+        grid.add("", [(number + 1).to_string(), newtons.write(axle.weight), metres.write(axle.offset)]);
     }
     grid
 }
@@ -216,9 +232,9 @@ fn limits(limits: Limits, units: UnitsEntry) -> String {
     parts.join(", ")
 }
 
-/// Makes a table of the other inputs: gravity, thickness, ground, friction of pairs of materials, kernel,
-/// corner contacts and tolerance.
-pub(super) fn facts(scene: &Scene, number: usize) -> Grid {
+/// Makes a table of the other inputs of a scene as it is given: gravity, thickness, course of the vehicle, movements, ground,
+/// friction of pairs of materials, kernel, corner contacts and tolerance. Of each kind it has at most `most` rows.
+pub(super) fn facts(scene: &Scene, number: usize, most: usize) -> Grid {
     let mut grid = Grid::new("", &["input", "value"]);
     let mut add = |what: &str, value: String| grid.add("", [what.to_owned(), value]);
     let gravity = match scene.gravity.norm() {
@@ -232,7 +248,13 @@ pub(super) fn facts(scene: &Scene, number: usize) -> Grid {
     }
     add("thickness, into the page", amount(scene.thickness, scene.units.length()));
     if let Some(vehicle) = &scene.vehicle {
-        add("axles of the vehicle", axles(vehicle, scene.units));
+        let over = vehicle.over.iter().map(|block| line(&scene.blocks[block.0].id)).collect::<Vec<_>>();
+        let over = if over.is_empty() { "the tops of all blocks".to_owned() } else { first_of(over, most) };
+        let ways = if vehicle.both_ways { "both ways" } else { "to the right" };
+        add("vehicle travels", format!("{ways}, over {over}"));
+    }
+    for moved in 0..scene.movements.len().min(most) {
+        add("movement of a support", line(&question::movement(scene, moved)));
     }
     let friction = range(scene.ground.iter().map(|g| g.body.friction));
     let ground = match scene.ground.len() {
@@ -240,11 +262,11 @@ pub(super) fn facts(scene: &Scene, number: usize) -> Grid {
         parts => format!("{}, fixed; friction μ {friction}", counted(parts, "part")),
     };
     add("ground", ground);
-    for (pair, friction) in scene.friction_pairs.iter().take(MAX_ROWS) {
+    for (pair, friction) in scene.friction_pairs.iter().take(most) {
         let [a, b] = pair.map(|i| line(&scene.materials[i].name));
         add(&format!("μ of {a} on {b}"), digits(*friction));
     }
-    for set in scene.joint_sets.iter().filter(|set| set.friction.is_some()).take(MAX_ROWS) {
+    for set in scene.joint_sets.iter().filter(|set| set.friction.is_some()).take(most) {
         add(&format!("μ of the joints {}", line(&set.id)), set.friction.map(digits).unwrap_or_default());
     }
     let kernel = match scene.kernel {

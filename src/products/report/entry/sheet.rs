@@ -1,18 +1,19 @@
 //! [`sheet`]: the two main sections of a report, about one frame. First what the structure is, with its inputs, reactions
 //! and margins, then its forces, the governing collapse and the balance of forces as a check.
 
-use super::collapse::{Collapse, other_way};
+use super::collapse::{Collapse, has_vehicle, other_way};
 use super::joints::{Ranking, base_joints, robots};
 use super::unit::Units;
 use super::{Badge, Figure, Grid, MarginBar, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
 use crate::mechanics::analysis::{
-    Analysis, CaseResult, EffectName, FrameAnalysis, MarginKind, MovementOutcome, SolvedFrame, SupportMovement, Verdict,
+    self, Analysis, CaseResult, EffectName, FrameAnalysis, Influence, MarginKind, MovementOutcome, SolvedFrame,
+    SupportMovement, Verdict,
 };
 use crate::mechanics::scene::Scene;
 use crate::pictures::drawing::{Drawing, Theme};
 use crate::products::figure::{self, At, Kind, Options};
 use crate::products::wording::margin::headline;
-use crate::products::wording::number::letter;
+use crate::products::wording::number::{letter, three_down};
 use crate::products::wording::question::{self, thrust_range};
 use crate::products::wording::{answer, sensitivity, verdict};
 use crate::text::{capitalised, line};
@@ -25,6 +26,10 @@ const OUTLINE_HEIGHT: f64 = 230.0;
 const FIGURE_WIDTH: f64 = 440.0;
 /// Height of the picture in a figure, in pixels.
 const FIGURE_HEIGHT: f64 = 300.0;
+/// Largest number of positions of a vehicle in a table, and of movements and load cases with a figure, unless the report is
+/// full.
+const MAX_POSITIONS: usize = 12;
+const MAX_DRAWN: usize = 4;
 /// A table of more loads is as wide as the page.
 const MAX_NARROW_LOADS: usize = 3;
 
@@ -89,7 +94,7 @@ pub(super) fn sheet(
         subject: Some((Kind::Structure, number)),
     });
     first.parts.push(SheetPart::Figures(outline.into_iter().collect()));
-    first.parts.extend(given(analysis.given(), solved));
+    first.parts.extend(given(analysis.given(), solved, report_options.full));
     let reactions = balance::support_forces(analysis, number);
     first.parts.extend(titled("Reactions", reactions, other_balances(analysis, number)));
     first.parts.extend(titled("Margins", margins(solved), Some(bullet::SHAPES_LEGEND.to_owned())));
@@ -101,7 +106,10 @@ pub(super) fn sheet(
     let figures = figures(analysis, number, report_options, collapse.as_ref());
     // Wide structures are drawn below each other, others next to each other.
     let across = if is_wide(scene, number) { 1 } else { 2 };
-    parts.extend(figures.chunks(across).map(|row| SheetPart::Figures(row.to_vec())));
+    let rows = |figures: &[Figure]| -> Vec<SheetPart> {
+        figures.chunks(across).map(|row| SheetPart::Figures(row.to_vec())).collect()
+    };
+    parts.extend(rows(&figures));
     if let Some(collapse) = &collapse {
         let falls = found.verdict == Verdict::Unstable;
         let heading = if falls { "Where it fails" } else { "Where it would fail first" };
@@ -111,6 +119,16 @@ pub(super) fn sheet(
         parts.push(SheetPart::Table(table));
         parts.push(SheetPart::Note(note));
     }
+    if let Some(influence) = &found.vehicle {
+        parts.push(SheetPart::Heading("Vehicle".to_owned()));
+        parts.push(SheetPart::Text(format!("It {}.", line(&question::vehicle_sentence(scene, influence)))));
+        parts.push(SheetPart::Table(positions(solved, influence, report_options.full)));
+    }
+    let cases = case_figures(analysis, number, report_options);
+    if !cases.is_empty() {
+        parts.push(SheetPart::Heading("Other load cases".to_owned()));
+        parts.extend(rows(&cases));
+    }
     // The table is for loaded walls and dams. In a frame that falls, the listed forces do not balance.
     let has_loads = !scene.loads_on(&scene.frames[number].placed).is_empty();
     if found.verdict == Verdict::Stable && (report_options.full || has_loads) {
@@ -119,6 +137,7 @@ pub(super) fn sheet(
     }
     parts.push(SheetPart::Table(robots(solved)));
     parts.extend(movements(solved));
+    parts.extend(rows(&movement_figures(analysis, number, report_options)));
     parts.extend(titled("Blocks that may leave", removable(solved), None));
     if let Some(own) = &found.sensitivity {
         parts.push(SheetPart::Heading(format!("Sensitivity of the {}", sensitivity::name(own.kind, true))));
@@ -213,7 +232,7 @@ fn figures(
     report_options: &ReportOptions,
     collapse: Option<&Collapse>,
 ) -> Vec<Figure> {
-    let solved @ SolvedFrame { scene, found, .. } = analysis.at(number);
+    let solved @ SolvedFrame { found, .. } = analysis.at(number);
     let forces = match found.verdict {
         Verdict::Stable => "The forces of one possible balance.",
         Verdict::Unstable if found.failures.is_empty() => "The forces.",
@@ -222,7 +241,10 @@ fn figures(
     };
     let mut kinds = vec![(Kind::Forces, None, forces)];
     let shown = collapse.and_then(|collapse| collapse.figure(found));
-    let other = || other_way(analysis, number).map(|toward| (Kind::Mechanism, Some(At::Margin(toward))));
+    let other = || {
+        let toward = other_way(analysis, number).filter(|_| !has_vehicle(found));
+        toward.map(|toward| (Kind::Mechanism, Some(At::Margin(toward))))
+    };
     match shown.or_else(other) {
         Some((kind, None)) => kinds.insert(0, (kind, None, "How it begins to fall.")),
         Some((kind, at)) => kinds.push((
@@ -236,29 +258,76 @@ fn figures(
         )),
         None => {}
     }
-    if found.movements.iter().any(|moved| matches!(moved.outcome, MovementOutcome::Follows(_))) {
-        kinds.push((Kind::Mechanism, Some(At::Movement), "How the structure cracks as its support moves, enlarged."));
-    }
     if found.vehicle.is_some() {
-        let caption = "The load factor for each position of the vehicle, and the governing position.";
-        kinds.push((Kind::Mechanism, Some(At::Vehicle), caption));
+        let caption =
+            "The load factor for each position of the first axle, and the collapse at the governing position.";
+        kinds.insert(0, (Kind::Mechanism, Some(At::Vehicle), caption));
     }
-    let wide = is_wide(scene, number);
     let mut figures = Vec::new();
     for (kind, at, caption) in kinds {
-        let change = |options: &mut Options| {
-            options.at = at;
-            if wide {
-                (options.width, options.height) = (Some(WIDE), Some(WIDE_HEIGHT));
-            }
-            kind
-        };
-        if let Some((drawing, dark)) = drawn(analysis, number, report_options, &change) {
+        let figure = figure(analysis, number, report_options, (kind, &|options| options.at = at), caption.to_owned());
+        if let Some(figure) = figure {
             let touches = if figures.is_empty() { Ranking::new(solved).touches() } else { Vec::new() };
-            figures.push(Figure { caption: caption.to_owned(), drawing, dark, touches, subject: Some((kind, number)) });
+            figures.push(Figure { touches, ..figure });
         }
     }
     figures
+}
+
+/// Makes a figure of a frame; wide structures have a wide one. The function sets the options.
+fn figure(
+    analysis: &Analysis,
+    number: usize,
+    report_options: &ReportOptions,
+    (kind, change): (Kind, &dyn Fn(&mut Options)),
+    caption: String,
+) -> Option<Figure> {
+    let change = |options: &mut Options| {
+        change(options);
+        if is_wide(analysis.given(), number) {
+            (options.width, options.height) = (Some(WIDE), Some(WIDE_HEIGHT));
+        }
+        kind
+    };
+    let (drawing, dark) = drawn(analysis, number, report_options, &change)?;
+    Some(Figure { caption, drawing, dark, touches: Vec::new(), subject: Some((kind, number)) })
+}
+
+/// Draws how the structure cracks as each of its supports moves.
+fn movement_figures(analysis: &Analysis, number: usize, report_options: &ReportOptions) -> Vec<Figure> {
+    let SolvedFrame { scene, found, .. } = analysis.at(number);
+    let follows = |moved: &&SupportMovement| matches!(moved.outcome, MovementOutcome::Follows(_));
+    let all = found.movements.iter().enumerate().filter(|(_, moved)| follows(moved));
+    let all = all.take(if report_options.full { usize::MAX } else { MAX_DRAWN });
+    let drawn = all.filter_map(|(place, moved)| {
+        let change = |options: &mut Options| (options.at, options.movement) = (Some(At::Movement), Some(place + 1));
+        let caption =
+            format!("How the structure cracks if {}, enlarged.", line(&question::movement(scene, moved.number)));
+        figure(analysis, number, report_options, (Kind::Mechanism, &change), caption)
+    });
+    drawn.collect()
+}
+
+/// Draws the frame in each load case but the governing one: its forces, or how it falls.
+fn case_figures(analysis: &Analysis, number: usize, report_options: &ReportOptions) -> Vec<Figure> {
+    let given = analysis.given();
+    let Some(cases) = &analysis.frames[number].cases else { return Vec::new() };
+    let others = given.in_cases().enumerate().filter(|(place, _)| *place != cases.governing);
+    let others = others.take(if report_options.full { usize::MAX } else { MAX_DRAWN });
+    let drawn = others.filter_map(|(_, (case, scene))| {
+        let frames = vec![given.frames[number].clone()];
+        let alone = Scene { frames, movements: Vec::new(), vehicle: None, ..scene };
+        let found = Analysis::with(alone, &analysis::Options::default());
+        let (kind, what) = match found.verdict() {
+            Verdict::Unstable => (Kind::Mechanism, "how it begins to fall"),
+            Verdict::Undecided => (Kind::Forces, "forces that are not proved"),
+            Verdict::Stable => (Kind::Forces, "the forces of one possible balance"),
+        };
+        let caption = format!("Load case {}: {what}.", line(&case.id));
+        // The step is that of the page, which an interactive figure shows.
+        Some(Figure { subject: None, ..figure(&found, 0, report_options, (kind, &|_| ()), caption)? })
+    });
+    drawn.collect()
 }
 
 /// Returns a table with its heading and a note; empty if the table has no rows.
@@ -272,12 +341,15 @@ fn titled(heading: &str, grid: Grid, note: Option<String>) -> Vec<SheetPart> {
 }
 
 /// Makes two columns with the inputs of the frame with index `number`, and below them a long table of loads. The weights
-/// are those of the scene as it is `given`. The loads are those of the condition that governs, in which `scene` has them.
-fn given(given: &Scene, solved: SolvedFrame<'_>) -> Vec<SheetPart> {
+/// are those of the scene as it is `given`. The loads are those of the condition that governs, in which `scene` has them. A
+/// `full` report lists all of them.
+fn given(given: &Scene, solved: SolvedFrame<'_>, full: bool) -> Vec<SheetPart> {
     let SolvedFrame { scene, found, number, .. } = solved;
     let units = Units::new(solved);
     let mut left = titled("Materials", inputs::materials(given, number, units), None);
-    let loads = inputs::loads(given, scene, number, units);
+    let most = if full { usize::MAX } else { inputs::MAX_ROWS };
+    left.extend(titled("Vehicle", inputs::vehicle(given, units), None));
+    let loads = inputs::loads(given, solved, most);
     // In a narrow column, a row of loads has three lines.
     let is_long = loads.lines.len() > MAX_NARROW_LOADS;
     let governing = found.cases.as_ref().and_then(|cases| given.cases().get(cases.governing));
@@ -291,8 +363,9 @@ fn given(given: &Scene, solved: SolvedFrame<'_>) -> Vec<SheetPart> {
         left.extend(loads);
         Vec::new()
     };
-    left.extend(titled("Robots", inputs::robots(scene, number), None));
-    let columns = SheetPart::Columns(vec![left, titled("Supports and settings", inputs::facts(given, number), None)]);
+    left.extend(titled("Robots", inputs::robots(scene, number, most), None));
+    let right = titled("Supports and settings", inputs::facts(given, number, most), None);
+    let columns = SheetPart::Columns(vec![left, right]);
     std::iter::once(columns).chain(below).collect()
 }
 
@@ -344,6 +417,35 @@ fn cases(given: &Scene, solved: SolvedFrame<'_>) -> Grid {
     grid
 }
 
+/// Makes the table of the positions of the vehicle, in the order of travel: those with the least factors, all in a `full` report.
+fn positions(solved: SolvedFrame<'_>, influence: &Influence, full: bool) -> Grid {
+    let scene = solved.scene;
+    let factor = |number: &usize| influence.positions[*number].factor.unwrap_or(f64::INFINITY);
+    let mut shown: Vec<usize> = (0..influence.positions.len()).collect();
+    shown.sort_by(|a, b| factor(a).total_cmp(&factor(b)));
+    shown.truncate(if full { usize::MAX } else { MAX_POSITIONS });
+    shown.sort_unstable();
+    let several = shown.len() < influence.positions.len();
+    let caption = if several { "The positions with the least load factors" } else { "" };
+    let places = shown.iter().map(|number| influence.positions[*number].at);
+    let metres = Units::new(solved).lengths(places);
+    let heads = [metres.head("first axle at x"), "travels".into(), "axles on".into(), "#load factor".into()];
+    let mut grid = Grid::new(caption, &heads);
+    for number in shown {
+        let own = &influence.positions[number];
+        let on = own.axles.iter().map(|(axle, block, _)| format!("{}: {}", axle + 1, line(&scene.blocks[block.0].id)));
+        let cells = [
+            metres.write(own.at),
+            if own.to_right { "to the right" } else { "to the left" }.to_owned(),
+            on.collect::<Vec<_>>().join(", "),
+            own.factor.map_or("no limit".to_owned(), three_down),
+        ];
+        let governs = influence.governing == Some(number);
+        grid.add("", cells.map(|words| TableCell::strong_if(governs, words)));
+    }
+    grid
+}
+
 /// Returns the table of the movements of supports, if there are any.
 fn movements(solved: SolvedFrame<'_>) -> Vec<SheetPart> {
     let SolvedFrame { scene, found: frame_analysis, .. } = solved;
@@ -362,7 +464,10 @@ fn movements(solved: SolvedFrame<'_>) -> Vec<SheetPart> {
             }
             other => [String::new(), question::without_state(other).to_owned()],
         };
-        grid.add("", [format!("{case}{}", question::movement(scene, moved)), force, joints].map(|words| line(&words)));
+        grid.add(
+            "",
+            [format!("{case}{}", question::movement(scene, moved.number)), force, joints].map(|words| line(&words)),
+        );
     }
     let note = "Of all forces that balance the structure, those whose force on the support does least work on the \
                 movement (H to the right, V upwards). Small displacements, per millimetre of the movement; a joint that \
@@ -398,8 +503,8 @@ fn assumptions(solved: SolvedFrame<'_>) -> String {
 /// the notices of the analysis.
 fn remarks(solved: SolvedFrame<'_>) -> Vec<String> {
     let SolvedFrame { found: frame_analysis, .. } = solved;
-    // Movements have a table.
-    let answers = answer::sentences(solved).into_iter().filter(|(name, _)| *name != "movement");
+    // Movements and a vehicle have tables.
+    let answers = answer::sentences(solved).into_iter().filter(|(name, _)| !["movement", "vehicle"].contains(name));
     let answers = answers.map(|(name, words)| format!("{}: {}.", capitalised(name), line(&words)));
     let wedging = frame_analysis
         .effects
