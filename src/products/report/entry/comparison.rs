@@ -15,6 +15,7 @@ mod difference;
 use difference::{Settings, Shapes};
 
 use super::hover::onto_scene;
+use super::part::FigureCount;
 use super::row::file_name;
 use super::{Entry, Figure, File, Grid, ReportOptions, Row, Section, SheetPart, bullet, sheet};
 use crate::geometry::{Point, range_of};
@@ -125,6 +126,8 @@ fn steps(sides: [Side<'_>; 2], report_options: &ReportOptions) -> (Vec<String>, 
         let number = section.letter.clone();
         section.letter = if several { number } else { String::new() };
     }
+    let mut count = FigureCount::default();
+    sections.iter_mut().for_each(|section| count.number_parts(&mut section.parts));
     (stated, sections)
 }
 

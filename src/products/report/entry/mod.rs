@@ -127,8 +127,10 @@ impl Entry {
         [title, paragraph]: [String; 2],
         picture: Option<(Drawing, Option<Drawing>)>,
     ) {
+        let parts = self.sections.iter().flat_map(|section| &section.parts);
+        let count: usize = parts.map(SheetPart::count_figures).sum();
         let figure = picture.map(|(drawing, dark)| Figure {
-            caption: text::line(&title),
+            caption: text::line(&format!("Figure {}: {title}", count + 1)),
             drawing,
             dark,
             touches: Vec::new(),

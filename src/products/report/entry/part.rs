@@ -4,8 +4,9 @@
 use std::borrow::Cow;
 
 use super::{HoverTarget, MarginBar, Thumbnail};
+use crate::geometry::Point;
 use crate::mechanics::analysis::Verdict;
-use crate::pictures::drawing::Drawing;
+use crate::pictures::drawing::{Camera, Drawing, Item};
 use crate::products::figure::Kind;
 
 /// A part of a page.
@@ -68,6 +69,75 @@ pub struct Figure {
     pub touches: Vec<HoverTarget>,
     /// The kind of the figure, and the index of its step; `None` in a comparison of two scenes.
     pub subject: Option<(Kind, usize)>,
+}
+
+impl SheetPart {
+    /// Returns the number of figures of this part.
+    pub(super) fn count_figures(&self) -> usize {
+        match self {
+            SheetPart::Figures(figures) => figures.len(),
+            SheetPart::Columns(columns) => columns.iter().flatten().map(SheetPart::count_figures).sum(),
+            _ => 0,
+        }
+    }
+
+    /// Puts figures next to each other. The height `level` of their scenes, metres, is at one height on the page, so that the
+    /// structures stand on one line. All figures become equally high.
+    pub(super) fn row(figures: &[Figure], level: f64) -> SheetPart {
+        let mut figures = figures.to_vec();
+        let of = |drawing: &Drawing| camera(&drawing.items).map_or(0.0, |own| own.place(Point::new(0.0, level)).y);
+        let mut drawings: Vec<&mut Drawing> = figures
+            .iter_mut()
+            .flat_map(|figure| std::iter::once(&mut figure.drawing).chain(&mut figure.dark))
+            .collect();
+        let lowest = drawings.iter().map(|drawing| of(drawing)).fold(0.0, f64::max);
+        for drawing in &mut drawings {
+            let down = lowest - of(drawing);
+            drawing.items = std::mem::take(&mut drawing.items).into_iter().map(|item| item.moved(0.0, down)).collect();
+            drawing.height += down;
+        }
+        let high = drawings.iter().map(|drawing| drawing.height).fold(0.0, f64::max);
+        drawings.iter_mut().for_each(|drawing| drawing.height = high);
+        SheetPart::Figures(figures)
+    }
+}
+
+/// Returns the camera of the first scene among these items.
+fn camera(items: &[Item]) -> Option<Camera> {
+    items.iter().find_map(|item| match item {
+        Item::Group(group) => group.camera.or_else(|| camera(&group.items)),
+        _ => None,
+    })
+}
+
+/// Numbers the figures of a report, from 1.
+#[derive(Debug, Default)]
+pub(super) struct FigureCount(usize);
+
+impl FigureCount {
+    /// Writes the numbers of figures into their captions, `Figure 2: The forces.`, and returns a reference to them:
+    /// `Figures 2 to 4`.
+    pub fn number<'f>(&mut self, figures: impl IntoIterator<Item = &'f mut Figure>) -> String {
+        let first = self.0 + 1;
+        for figure in figures {
+            self.0 += 1;
+            figure.caption = format!("Figure {}: {}", self.0, figure.caption);
+        }
+        if self.0 > first { format!("Figures {first} to {}", self.0) } else { format!("Figure {first}") }
+    }
+
+    /// Numbers all figures of these parts.
+    pub fn number_parts(&mut self, parts: &mut [SheetPart]) {
+        for part in parts {
+            match part {
+                SheetPart::Figures(figures) => {
+                    self.number(figures);
+                }
+                SheetPart::Columns(columns) => columns.iter_mut().for_each(|parts| self.number_parts(parts)),
+                _ => {}
+            }
+        }
+    }
 }
 
 /// A chart as an SVG document, with its caption.

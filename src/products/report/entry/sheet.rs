@@ -3,6 +3,7 @@
 
 use super::collapse::{Collapse, has_vehicle, other_way};
 use super::joints::{Ranking, base_joints, robots};
+use super::part::FigureCount;
 use super::unit::Units;
 use super::{Badge, Figure, Grid, MarginBar, ReportOptions, Section, SheetPart, TableCell, balance, bullet, inputs};
 use crate::mechanics::analysis::{
@@ -69,10 +70,11 @@ pub(super) fn sheet(
     number: usize,
     steps: Option<Grid>,
     report_options: &ReportOptions,
+    count: &mut FigureCount,
 ) -> [Section; 2] {
     let solved @ SolvedFrame { scene, found, .. } = analysis.at(number);
     let mut first = empty(scene, number, found.verdict);
-    let mut second = Section { letter: String::new(), title: String::new(), begins_page: true, ..first.clone() };
+    let mut second = Section { letter: String::new(), title: String::new(), ..first.clone() };
     let collapse = Collapse::new(analysis, number);
     first.parts.push(SheetPart::Badge(Box::new(badge(solved))));
     let outline = drawn(analysis, number, report_options, &|options| {
@@ -93,7 +95,9 @@ pub(super) fn sheet(
         touches: Vec::new(),
         subject: Some((Kind::Structure, number)),
     });
-    first.parts.push(SheetPart::Figures(outline.into_iter().collect()));
+    let mut outline: Vec<Figure> = outline.into_iter().collect();
+    count.number(&mut outline);
+    first.parts.push(SheetPart::Figures(outline));
     first.parts.extend(given(analysis.given(), solved, report_options.full));
     let reactions = balance::support_forces(analysis, number);
     first.parts.extend(titled("Reactions", reactions, other_balances(analysis, number)));
@@ -103,11 +107,13 @@ pub(super) fn sheet(
     first.parts.extend(notes.map(|note| SheetPart::Note(line(&format!("Note: {note}.")))));
 
     let parts = &mut second.parts;
-    let figures = figures(analysis, number, report_options, collapse.as_ref());
+    let mut figures = figures(analysis, number, report_options, collapse.as_ref());
+    let shown = count.number(&mut figures);
     // Wide structures are drawn below each other, others next to each other.
     let across = if is_wide(scene, number) { 1 } else { 2 };
+    let level = scene.bounds(&scene.frames[number].placed).map_or(0.0, |bounds| bounds.min.y);
     let rows = |figures: &[Figure]| -> Vec<SheetPart> {
-        figures.chunks(across).map(|row| SheetPart::Figures(row.to_vec())).collect()
+        figures.chunks(across).map(|row| SheetPart::row(row, level)).collect()
     };
     parts.extend(rows(&figures));
     if let Some(collapse) = &collapse {
@@ -115,7 +121,7 @@ pub(super) fn sheet(
         let heading = if falls { "Where it fails" } else { "Where it would fail first" };
         let (table, note) = collapse.table(analysis, number);
         parts.push(SheetPart::Heading(heading.to_owned()));
-        parts.push(SheetPart::Text(collapse.words(analysis, number)));
+        parts.push(SheetPart::Text(format!("{} See {shown}.", collapse.words(analysis, number))));
         parts.push(SheetPart::Table(table));
         parts.push(SheetPart::Note(note));
     }
@@ -124,9 +130,11 @@ pub(super) fn sheet(
         parts.push(SheetPart::Text(format!("It {}.", line(&question::vehicle_sentence(scene, influence)))));
         parts.push(SheetPart::Table(positions(solved, influence, report_options.full)));
     }
-    let cases = case_figures(analysis, number, report_options);
+    let mut cases = case_figures(analysis, number, report_options);
     if !cases.is_empty() {
+        let shown = count.number(&mut cases);
         parts.push(SheetPart::Heading("Other load cases".to_owned()));
+        parts.push(SheetPart::Text(format!("The load cases that do not govern: see {shown}.")));
         parts.extend(rows(&cases));
     }
     // The table is for loaded walls and dams. In a frame that falls, the listed forces do not balance.
@@ -137,7 +145,12 @@ pub(super) fn sheet(
     }
     parts.push(SheetPart::Table(robots(solved)));
     parts.extend(movements(solved));
-    parts.extend(rows(&movement_figures(analysis, number, report_options)));
+    let mut moved = movement_figures(analysis, number, report_options);
+    if !moved.is_empty() {
+        let shown = count.number(&mut moved);
+        parts.push(SheetPart::Note(format!("See {shown}.")));
+        parts.extend(rows(&moved));
+    }
     parts.extend(titled("Blocks that may leave", removable(solved), None));
     if let Some(own) = &found.sensitivity {
         parts.push(SheetPart::Heading(format!("Sensitivity of the {}", sensitivity::name(own.kind, true))));
@@ -174,24 +187,20 @@ fn is_wide(scene: &Scene, number: usize) -> bool {
     scene.bounds(&scene.frames[number].placed).is_some_and(|bounds| bounds.width() > 2.0 * bounds.height())
 }
 
-/// Describes steps that do not stand, in two columns. `numbers` has the indices of the steps. Each step has its first
-/// figure and the reason for its verdict.
+/// Draws steps that do not stand. `numbers` has the indices of the steps. Each step has its first figure, whose caption gives
+/// the reason for its verdict.
 pub(super) fn others(analysis: &Analysis, numbers: &[usize], report_options: &ReportOptions) -> Vec<SheetPart> {
-    let column = |number: &usize| {
+    let one = |number: &usize| {
         let solved = analysis.at(*number);
         let own = empty(solved.scene, *number, solved.found.verdict);
         let collapse = Collapse::new(analysis, *number);
-        let mut figures = figures(analysis, *number, report_options, collapse.as_ref());
-        figures.truncate(1);
-        figures.iter_mut().for_each(|figure| figure.touches.clear());
-        vec![
-            SheetPart::Heading(format!("({}) {}: {}", own.letter, own.title, own.verdict.plain())),
-            SheetPart::Figures(figures),
-            SheetPart::Note(sentence(solved)),
-        ]
+        let figure = figures(analysis, *number, report_options, collapse.as_ref()).into_iter().next()?;
+        let caption = format!("({}) {}: {}. {}", own.letter, own.title, own.verdict.plain(), sentence(solved));
+        Some(Figure { caption, touches: Vec::new(), ..figure })
     };
-    let columns: Vec<Vec<SheetPart>> = numbers.iter().map(column).collect();
-    columns.chunks(2).map(|pair| SheetPart::Columns(pair.to_vec())).collect()
+    let figures: Vec<Figure> = numbers.iter().filter_map(one).collect();
+    let level = analysis.given().bounds(&analysis.given().frames[0].placed).map_or(0.0, |bounds| bounds.min.y);
+    figures.chunks(2).map(|row| SheetPart::row(row, level)).collect()
 }
 
 /// Returns a sentence with the verdict and its reasons.
@@ -385,7 +394,8 @@ fn margins(solved: SolvedFrame<'_>) -> Grid {
 /// emphasised. If all rows show the same margin, their bars have one scale.
 fn cases(given: &Scene, solved: SolvedFrame<'_>) -> Grid {
     let frame_analysis = solved.found;
-    let mut grid = Grid::new("", &["load case", "consists of", "verdict", "margin", "#from", "bar", "to"]);
+    let mut grid =
+        Grid::new("", &["load case", "consists of", "verdict", "margin", "#from", "bar", "to"]);
     let Some(cases) = &frame_analysis.cases else { return grid };
     let of = |case: &CaseResult| {
         let (margins, verdict) = (case.margins.clone(), case.verdict);

@@ -2,6 +2,7 @@
 //! table of all steps, then pictures of other steps that do not stand, and in a full report an appendix for each step.
 
 use super::joints::Ranking;
+use super::part::FigureCount;
 use super::row::{governing, thumbnail};
 use super::sheet::{empty, others, sheet};
 use super::{Chart, Grid, ReportOptions, Section, SheetPart, TableCell};
@@ -22,7 +23,8 @@ pub(super) fn sections(analysis: &Analysis, report_options: &ReportOptions) -> V
     let count = analysis.frames.len();
     let governing = governing(analysis);
     let steps = (count > 1).then(|| table(analysis));
-    let mut sections = Vec::from(sheet(analysis, governing, steps, report_options));
+    let mut drawn = FigureCount::default();
+    let mut sections = Vec::from(sheet(analysis, governing, steps, report_options, &mut drawn));
     if count > 1 {
         sections[0].title = format!("{} (the step that governs)", sections[0].title);
     }
@@ -32,6 +34,7 @@ pub(super) fn sections(analysis: &Analysis, report_options: &ReportOptions) -> V
         let mut section = empty(analysis.given(), governing, analysis.verdict());
         (section.letter, section.title) = (String::new(), "Other steps that do not stand".to_owned());
         section.parts = others(analysis, &falling, report_options);
+        drawn.number_parts(&mut section.parts);
         sections.push(section);
     }
     if report_options.full {

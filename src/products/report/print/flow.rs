@@ -1,5 +1,7 @@
 //! [`Flow`]: places text, tables and figures on the pages of a PDF, from top to bottom.
 
+use std::collections::VecDeque;
+
 use super::Page;
 use crate::pictures::drawing::text::{width, wrap};
 use crate::pictures::drawing::{
@@ -24,6 +26,10 @@ pub(super) const SMALL_TEXT_SIZE: f64 = 10.5;
 pub(super) const LINE_HEIGHT: f64 = 1.38;
 /// The largest height of a figure, pixels.
 const MAX_FIGURE_HEIGHT: f64 = 300.0;
+/// Figures become smaller, at most by this factor, to fit on the rest of a page.
+const MIN_SHRINKAGE: f64 = 0.75;
+/// The width of the text area, pixels.
+const WHOLE_WIDTH: f64 = PAGE_SIZE.0 - 2.0 * MARGIN;
 /// The height of a heading with the space around it, pixels.
 pub(super) const HEADING_HEIGHT: f64 = 32.0;
 /// A paragraph of at most this many lines stays on one page.
@@ -50,6 +56,8 @@ pub(super) struct Flow {
     foot: String,
     /// The items that were added since the last call of [`Flow::close`].
     open: Vec<Item>,
+    /// Rows of figures that did not fit on the current page. They stand at the top of the next one.
+    waiting: VecDeque<Vec<Figure>>,
 }
 
 impl Flow {
@@ -60,12 +68,13 @@ impl Flow {
             current: 0,
             y: MARGIN,
             left: MARGIN,
-            room: PAGE_SIZE.0 - 2.0 * MARGIN,
+            room: WHOLE_WIDTH,
             tables: 0,
             theme: Theme::thesis(),
             fonts: Fonts::default(),
             foot,
             open: Vec::new(),
+            waiting: VecDeque::new(),
         };
         flow.page();
         flow
@@ -79,12 +88,28 @@ impl Flow {
         &mut self.pages[self.current]
     }
 
-    /// Continues at the top of the next page, unless the current page is empty.
+    /// Continues at the top of the next page, below the figures that wait for it, unless the current page is empty.
     pub fn new_page(&mut self) {
         if self.y > MARGIN {
             self.current += 1;
             self.y = MARGIN;
             self.page();
+            let column = (self.left, self.room);
+            (self.left, self.room) = (MARGIN, WHOLE_WIDTH);
+            while let Some(row) = self.waiting.pop_front() {
+                if let Err(row) = self.placed(row) {
+                    self.waiting.push_front(row);
+                    break;
+                }
+            }
+            (self.left, self.room) = column;
+        }
+    }
+
+    /// Places all figures that wait for a page.
+    pub fn flush(&mut self) {
+        while !self.waiting.is_empty() {
+            self.new_page();
         }
     }
 
@@ -202,14 +227,30 @@ impl Flow {
         self.y += 0.4 * TEXT_SIZE;
     }
 
-    /// Adds figures next to each other, each with its caption.
+    /// Adds figures next to each other, each with its caption. Figures for which the page has too little space wait for the
+    /// next page, and what follows them fills this one.
     pub fn figures(&mut self, figures: &[Figure]) {
+        let row = if self.waiting.is_empty() { self.placed(figures.to_vec()) } else { Err(figures.to_vec()) };
+        if let Err(row) = row {
+            self.waiting.push_back(row);
+        }
+    }
+
+    /// Places a row of figures, a little smaller if it then fits on the page, or returns it.
+    fn placed(&mut self, figures: Vec<Figure>) -> Result<(), Vec<Figure>> {
         let across = figures.len().max(1) as f64;
         let wide = (self.room - COLUMN_GAP * (across - 1.0)) / across;
-        let scales: Vec<f64> = figures.iter().map(|f| fitted(&f.drawing, wide)).collect();
+        let mut scales: Vec<f64> = figures.iter().map(|f| fitted(&f.drawing, wide)).collect();
         let heights = figures.iter().zip(&scales).map(|(f, scale)| scale * f.drawing.height);
-        let high = heights.fold(0.0, f64::max);
-        self.reserve(high + 4.0 * SMALL_TEXT_SIZE);
+        let mut high = heights.fold(0.0, f64::max);
+        let free = TEXT_BOTTOM - self.y - 4.0 * SMALL_TEXT_SIZE;
+        if free < MIN_SHRINKAGE * high {
+            return Err(figures);
+        }
+        if free < high {
+            scales.iter_mut().for_each(|scale| *scale *= free / high);
+            high = free;
+        }
         let (top, left) = (self.y, self.left);
         let mut end = top;
         for (number, (figure, scale)) in figures.iter().zip(scales).enumerate() {
@@ -222,6 +263,7 @@ impl Flow {
             end = f64::max(end, self.caption(&figure.caption, x, wide));
         }
         self.y = end + 0.4 * TEXT_SIZE;
+        Ok(())
     }
 
     /// Adds a caption at the current y coordinate, with its left edge at `x` and a width of `wide` pixels. Returns the
@@ -269,6 +311,7 @@ impl Flow {
         let (left, room) = (self.left, self.room);
         let across = columns.len().max(1) as f64;
         let wide = (room - COLUMN_GAP * (across - 1.0)) / across;
+        self.flush();
         self.reserve(120.0);
         let start = (self.current, self.y);
         let mut end = start;

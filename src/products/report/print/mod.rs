@@ -19,6 +19,9 @@ use crate::text::line;
 /// A section begins below the rest of the section before if this rest is lower than this, pixels.
 const MAX_REST: f64 = 80.0;
 
+/// A section with a title begins on a page with at least this much space, pixels.
+const MIN_SECTION: f64 = 150.0;
+
 /// A page: a drawing of groups with roles, figures at positions, links to scenes and bookmarks.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Page {
@@ -72,12 +75,13 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
     for (number, section) in entry.sections.iter().enumerate() {
         if section.begins_page {
             // A few lines that did not fit on the page before do not need a page of their own.
+            flow.flush();
             if flow.y > MARGIN + MAX_REST {
                 flow.new_page();
             }
         } else if number > 0 && !section.title.is_empty() {
-            // Begin a new page unless there is space for the heading and one row of pictures.
-            flow.reserve(420.0);
+            flow.flush();
+            flow.reserve(MIN_SECTION);
         }
         match (section.letter.as_str(), section.title.as_str()) {
             ("", "") => {}
@@ -89,6 +93,7 @@ pub(super) fn section(entry: &Entry) -> Vec<Page> {
         }
         parts(&mut flow, &section.parts);
     }
+    flow.flush();
     flow.pages
 }
 

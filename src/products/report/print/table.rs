@@ -8,7 +8,7 @@ use crate::pictures::output::pdf::Role;
 use crate::products::report::entry::{Grid, TableCell, Thumbnail};
 
 /// A table stays on one page if the total height of its rows is below this fraction of the height of the text area.
-const MAX_UNBROKEN_SHARE: f64 = 0.3;
+const MAX_UNBROKEN_SHARE: f64 = 0.18;
 /// Width of a bar in a table, pixels.
 const BAR_WIDTH: f64 = 160.0;
 /// Width and height of a small picture in a table, pixels.
