@@ -197,13 +197,13 @@ fn table(caption: &str, forces: &[Force], units: Units, is_sum: bool) -> Grid {
     let places = forces.iter().filter_map(|f| f.at);
     let metres = units.lengths(places.flat_map(|p| [p.x, p.y]));
     let mut heads = vec![
-        if is_sum { "force" } else { "on" }.to_owned(),
+        if is_sum { "external force" } else { "reaction" }.to_owned(),
         metres.head("x"),
         metres.head("y"),
-        newtons.head("right"),
-        newtons.head("up"),
+        newtons.head("horizontal F_x"),
+        newtons.head("vertical F_y"),
     ];
-    heads.extend(is_sum.then(|| moments.head("moment")));
+    heads.extend(is_sum.then(|| moments.head("moment M")));
     let mut grid = Grid::new(caption, &heads);
     let place = |value: Option<f64>| value.map_or("–".to_owned(), |v| metres.write(v));
     for force in forces {
@@ -242,5 +242,5 @@ pub(super) fn check_words(frame_analysis: &FrameAnalysis) -> String {
         }
         Verdict::Undecided => "No balance is proved: the sums are the remaining imbalance of the best forces found.",
     };
-    format!("{words} Moment = x·F_up − y·F_right + torque, anticlockwise positive.")
+    format!("{words} M = x·F_y − y·F_x + torque; right, up and anticlockwise are positive.")
 }

@@ -79,7 +79,7 @@ pub(super) fn placement_bar(solved: SolvedFrame<'_>) -> Option<MarginBar> {
 
 /// A legend for readers: the meaning of a bar and of the mark at the current value.
 pub(super) const SHAPES_LEGEND: &str =
-    "Bars: where it stands; disc, cross or ring: the value now, inside, outside or unknown.";
+    "Bars: where it stands; disc, cross or ring: the present value, inside, outside or unknown.";
 
 /// The upper end of the scale, as a multiple of the largest absolute value that is drawn.
 const SCALE_END_RATIO: f64 = 1.25;

@@ -115,7 +115,7 @@ impl Collapse {
         let point = |joint: &Joint| joint.hinge.unwrap_or(joint.at);
         let mut heads = vec!["joint".to_owned(), "in the collapse".to_owned(), places.head("x"), places.head("y")];
         if stands {
-            heads.extend([newtons.head("N now"), newtons.head("T now"), "now".to_owned()]);
+            heads.extend([newtons.head("normal N"), newtons.head("friction T"), "distance to the limit".to_owned()]);
         }
         let mut grid = Grid::new("", &heads);
         for (joint, away) in &joints {
@@ -142,7 +142,7 @@ impl Collapse {
         let more = if more > 0 { format!("And {}. ", counted(more, "more joint")) } else { String::new() };
         let note = if stands {
             format!(
-                "{more}They act together just beyond the margin. “Now”: one possible balance, that of least forces."
+                "{more}They act together just beyond the margin. N, T and the distance are those of one possible balance, that of least forces."
             )
         } else {
             more

@@ -198,8 +198,8 @@ pub(super) fn base_joints(solved: SolvedFrame<'_>, full: bool) -> (Grid, String)
         "joint".to_owned(),
         newtons.head("normal N"),
         offs.head("e"),
-        stress.head("at the left end"),
-        stress.head("at the right end"),
+        stress.head("pressure, left end"),
+        stress.head("pressure, right end"),
         "resultant".to_owned(),
     ];
     let mut grid = Grid::new("", &heads);
@@ -247,8 +247,8 @@ pub(super) fn robots(solved: SolvedFrame<'_>) -> Grid {
         &[
             "robot".to_owned(),
             "holds".to_owned(),
-            newtons.head("to the right"),
-            newtons.head("up"),
+            newtons.head("horizontal F_x"),
+            newtons.head("vertical F_y"),
             torques.head("torque"),
             "#limit used".to_owned(),
         ],

@@ -381,7 +381,7 @@ fn given(given: &Scene, solved: SolvedFrame<'_>, full: bool) -> Vec<SheetPart> {
 /// Makes the table of the margins and of the placement tolerance, each as a bar with numbers at both ends and the
 /// present value.
 fn margins(solved: SolvedFrame<'_>) -> Grid {
-    let mut grid = Grid::new("", &["margin", "#from", "bar", "to", "#now"]);
+    let mut grid = Grid::new("", &["margin", "#lower limit", "range", "upper limit", "#present value"]);
     let margins = bullet::margin_bars(solved);
     for bar in margins.into_iter().chain(bullet::placement_bar(solved)) {
         let [from, to, now] = bar.ends_and_present.clone().map(TableCell::from);
@@ -395,7 +395,7 @@ fn margins(solved: SolvedFrame<'_>) -> Grid {
 fn cases(given: &Scene, solved: SolvedFrame<'_>) -> Grid {
     let frame_analysis = solved.found;
     let mut grid =
-        Grid::new("", &["load case", "consists of", "verdict", "margin", "#from", "bar", "to"]);
+        Grid::new("", &["load case", "consists of", "verdict", "margin", "#lower limit", "range", "upper limit"]);
     let Some(cases) = &frame_analysis.cases else { return grid };
     let of = |case: &CaseResult| {
         let (margins, verdict) = (case.margins.clone(), case.verdict);
@@ -459,7 +459,7 @@ fn positions(solved: SolvedFrame<'_>, influence: &Influence, full: bool) -> Grid
 /// Returns the table of the movements of supports, if there are any.
 fn movements(solved: SolvedFrame<'_>) -> Vec<SheetPart> {
     let SolvedFrame { scene, found: frame_analysis, .. } = solved;
-    let mut grid = Grid::new("", &["if", "force on the support", "joints that open most"]);
+    let mut grid = Grid::new("", &["movement of the support", "force on the support", "joints that open most"]);
     let cases = frame_analysis.cases.iter();
     let of_cases =
         cases.flat_map(|cases| cases.each.iter().map(|case| (format!("case {}: ", case.id), &case.movements)));

@@ -123,7 +123,7 @@ impl Writer {
         let label = format!("Table {}.{}: {what}", self.place, self.tables);
         let table = html! {
             div.wide tabindex="0" role="region" aria-label=(label) {
-                table.sums[of.has_sum].margins[of.heads.iter().any(|h| h.0 == "bar")] {
+                table.sums[of.has_sum].margins[of.heads.iter().any(|h| h.0 == "range")] {
                     @if !of.caption.is_empty() { caption { (of.caption) } }
                     thead { tr { @for (head, number) in &of.heads { th.number[*number] scope="col" { (head) } } } }
                     tbody {
