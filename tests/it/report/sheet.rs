@@ -122,7 +122,7 @@ fn a_vehicle_its_cases_and_its_movements_have_figures_and_tables() {
     let result: serde_json::Value = serde_json::from_str(&folder.text("bridge.json")).expect("JSON");
     let positions = result["scenes"][0]["frames"][0]["vehicle"]["positions"].as_array().expect("positions").len();
     let [page, wall, arch] = ["bridge.md", "wall.md", "arch.md"].map(|name| folder.text(name));
-    assert!(page.contains("*Figure 3: The forces") && page.contains("See Figures 2 to 3."), "{page}");
+    assert!(page.contains("*Figure 3: The forces") && page.contains("See Figures 2 and 3."), "{page}");
     let captions: Vec<&str> = page.lines().filter(|line| line.starts_with('*') && !line.starts_with("**")).collect();
     assert!(captions[1].contains("The load factor for each position of the first axle"), "{captions:?}");
     let rows = page.split("The positions with the least load factors").nth(1).expect("a table");

@@ -116,14 +116,18 @@ pub(super) struct FigureCount(usize);
 
 impl FigureCount {
     /// Writes the numbers of figures into their captions, `Figure 2: The forces.`, and returns a reference to them:
-    /// `Figures 2 to 4`.
+    /// `Figures 2 to 4`. There is at least one.
     pub fn number<'f>(&mut self, figures: impl IntoIterator<Item = &'f mut Figure>) -> String {
         let first = self.0 + 1;
         for figure in figures {
             self.0 += 1;
             figure.caption = format!("Figure {}: {}", self.0, figure.caption);
         }
-        if self.0 > first { format!("Figures {first} to {}", self.0) } else { format!("Figure {first}") }
+        match self.0.saturating_sub(first) {
+            0 => format!("Figure {first}"),
+            1 => format!("Figures {first} and {}", self.0),
+            _ => format!("Figures {first} to {}", self.0),
+        }
     }
 
     /// Numbers all figures of these parts.
