@@ -78,7 +78,10 @@ fn a_margin_without_meaning_or_without_a_present_value() {
 fn the_sign_is_that_of_the_verdict_in_random_scenes() {
     let mut counts = [0; 3];
     for n in 0..60 {
-        let analysis = Analysis::with(&scene(&random::scene(n).1), &Options::default().margins(drystone::analysis::MarginKinds::ALL));
+        let analysis = Analysis::with(
+            &scene(&random::scene(n).1),
+            &Options::default().margins(drystone::analysis::MarginKinds::ALL),
+        );
         for solved in analysis.each() {
             for kind in [MarginKind::Tilt, MarginKind::LoadFactor, MarginKind::FrictionFactor, MarginKind::Kernel] {
                 let Some(number) = solved.signed_margin(kind) else { continue };
