@@ -221,6 +221,7 @@ fn reports_of_snapshots_have_the_same_structure_for_all_names() {
             expected: None,
             difference: None,
             picture: None,
+            is_invisible: false,
         };
         let report = CheckOutcome {
             snapshots: vec![Snapshot {
@@ -228,6 +229,7 @@ fn reports_of_snapshots_have_the_same_structure_for_all_names() {
                 scene: Some(hostile.into()),
                 references: Vec::new(),
                 findings: vec![finding],
+                notes: Vec::new(),
             }],
             orphans: vec![(hostile.into(), "delete it".into())],
             ..CheckOutcome::default()

@@ -230,6 +230,7 @@ impl Snapshot {
             terminal.note(&format!("{accepted} accepted; {}", report.summary()));
             return Ok(());
         }
+        report.snapshots.iter().flat_map(|s| &s.notes).for_each(|note| terminal.note(note));
         terminal.note(&report.summary());
         if report.failing().next().is_some() {
             let places: Vec<String> =

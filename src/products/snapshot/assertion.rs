@@ -173,7 +173,7 @@ fn compared(
     let findings = find(&mut parts, &settings);
     let name = base.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let references = parts.into_iter().map(|part| part.file).collect();
-    let snapshot = Snapshot { name, scene: None, references, findings };
+    let snapshot = Snapshot::new(name, None, references, findings);
     let report = CheckOutcome { snapshots: vec![snapshot], ..CheckOutcome::default() };
     let ended = finish(report, access, what, option);
     drop(lock);

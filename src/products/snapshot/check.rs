@@ -35,12 +35,10 @@ pub fn check(found: Discovered, done: &(dyn Fn(&str) + Sync)) -> CheckOutcome {
         });
         done(&job.name);
         match findings {
-            Ok(findings) => Ok(Snapshot {
-                name: job.name.clone(),
-                scene: Some(job.path.clone()),
-                references: job.parts.iter().map(|p| p.file.clone()).collect(),
-                findings,
-            }),
+            Ok(findings) => {
+                let references = job.parts.iter().map(|p| p.file.clone()).collect();
+                Ok(Snapshot::new(job.name.clone(), Some(job.path.clone()), references, findings))
+            }
             Err(fault) => Err((job.path.clone(), fault)),
         }
     };
@@ -96,6 +94,7 @@ fn finding(part: &Part, state: State, words: Vec<String>) -> Finding {
         expected: None,
         difference: None,
         picture: None,
+        is_invisible: false,
     }
 }
 
@@ -174,6 +173,7 @@ fn drawing_finding(part: &Part, text: &str, settings: &Settings) -> Option<Findi
     }
     Some(Finding {
         fresh: picture(),
+        is_invisible: difference.is_invisible(),
         difference: difference.image(&expected).encode().ok(),
         expected: Some(bytes),
         ..finding(part, State::Changed, vec![difference.words()])

@@ -69,7 +69,7 @@ pub fn json(report: &CheckOutcome) -> String {
     let finding = |f: &Finding| json!({ "layer": f.layer.name(), "file": shown(&f.file), "state": f.state.name(), "changes": f.words });
     let snapshot = |s: &Snapshot| {
         let findings: Vec<Value> = s.findings.iter().map(finding).collect();
-        json!({ "name": s.name, "scene": s.scene.as_deref().map(shown), "matches": s.matches(), "findings": findings })
+        json!({ "name": s.name, "scene": s.scene.as_deref().map(shown), "matches": s.matches(), "findings": findings, "notes": s.notes })
     };
     let snapshots: Vec<Value> = report.snapshots.iter().map(snapshot).collect();
     let orphans = report.orphans.iter().map(|(path, reason)| json!({ "file": shown(path), "reason": reason }));

@@ -72,6 +72,8 @@ pub struct Finding {
     pub difference: Option<Vec<u8>>,
     /// The new picture as PNG, if the reference stores only a hash of its pixels.
     pub picture: Option<Vec<u8>>,
+    /// True if nobody can see the difference of the pictures.
+    pub is_invisible: bool,
 }
 
 impl Finding {
@@ -98,6 +100,8 @@ pub struct Snapshot {
     pub references: Vec<PathBuf>,
     /// The references that do not match.
     pub findings: Vec<Finding>,
+    /// What differs although all references match: pixels that nobody can see.
+    pub notes: Vec<String>,
 }
 
 /// The result of a check.
@@ -129,6 +133,15 @@ pub enum Acceptance {
 }
 
 impl Snapshot {
+    /// Makes a snapshot. If nothing differs but pixels that nobody can see, the references match, with notes.
+    pub(super) fn new(name: String, scene: Option<PathBuf>, references: Vec<PathBuf>, found: Vec<Finding>) -> Snapshot {
+        let notes = found.iter().filter(|f| f.is_invisible);
+        let notes = notes.map(|f| format!("{}: {}, which nobody can see", shown(&f.file), f.words.join("; ")));
+        let (notes, findings) =
+            if found.iter().all(|f| f.is_invisible) { (notes.collect(), Vec::new()) } else { (Vec::new(), found) };
+        Snapshot { name, scene, references, findings, notes }
+    }
+
     /// True if all references match.
     pub fn matches(&self) -> bool {
         self.findings.is_empty()

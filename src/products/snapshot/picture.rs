@@ -12,6 +12,9 @@ use crate::pictures::output::png::{MAX_PIXELS, MAX_SIDE};
 
 /// The first bytes of a PNG.
 const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+/// The largest difference of a channel that nobody can see, of 255, if only one of [`INVISIBLE_SHARE`] pixels differs.
+const MAX_INVISIBLE: u8 = 16;
+const INVISIBLE_SHARE: u64 = 10_000;
 /// The colour of pixels that differ.
 const CHANGED: [u8; 4] = [0xd4, 0x00, 0x1a, 255];
 /// The colour of the area that only one of the pictures has.
@@ -204,6 +207,14 @@ impl Difference {
     /// True if the pictures count as equal: they have the same size, and no pixel differs by more than the tolerance.
     pub fn is_none(&self) -> bool {
         self.changed == 0 && self.sizes[0] == self.sizes[1]
+    }
+
+    /// True if nobody can see the difference: equal sizes, no channel differs by more than 16 of 255, and at most 0.01 %
+    /// of the pixels differ.
+    pub fn is_invisible(&self) -> bool {
+        self.sizes[0] == self.sizes[1]
+            && self.largest <= MAX_INVISIBLE
+            && self.changed.saturating_mul(INVISIBLE_SHARE) <= self.of
     }
 
     /// Describes the difference in words; empty if the pictures count as equal.

@@ -118,8 +118,8 @@ fn a_vehicle_its_cases_and_its_movements_have_figures_and_tables() {
     for name in ["bridge", "wall", "arch"] {
         folder.done(&format!("report {name}.json -o {name}.md"));
     }
-    folder.done("report bridge.json -o bridge.json");
-    let result: serde_json::Value = serde_json::from_str(&folder.text("bridge.json")).expect("JSON");
+    folder.done("report bridge.json -o out.json");
+    let result: serde_json::Value = serde_json::from_str(&folder.text("out.json")).expect("JSON");
     let positions = result["scenes"][0]["frames"][0]["vehicle"]["positions"].as_array().expect("positions").len();
     let [page, wall, arch] = ["bridge.md", "wall.md", "arch.md"].map(|name| folder.text(name));
     assert!(page.contains("*Figure 3: The forces") && page.contains("See Figures 2 and 3."), "{page}");

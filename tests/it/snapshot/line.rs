@@ -404,3 +404,37 @@ fn kinds_themes_and_widths_have_their_own_files() {
         ran.out
     );
 }
+
+#[test]
+fn a_pixel_that_nobody_can_see_is_a_note_unless_the_facts_change() {
+    let folder = accepted();
+    // Changes `count` pixels of the reference by `by` of 255.
+    let change = |count: usize, by: u8| {
+        let picture = Picture::decode(&fs::read(folder.path("a/arch.png")).expect("there")).expect("a PNG");
+        let mut pixels = picture.pixels().to_vec();
+        let white = pixels.iter_mut().filter(|pixel| **pixel == [255; 4]).take(count);
+        white.for_each(|pixel| pixel[1] -= by);
+        let changed = Picture::new(picture.width, picture.height, pixels).encode().expect("a PNG");
+        (picture.encode().expect("a PNG"), changed, picture.pixels().len())
+    };
+    let (reference, slight, size) = change(1, 16);
+    assert!(size >= 10_000, "one pixel of {size}");
+    fs::write(folder.path("a/arch.png"), &slight).expect("writable");
+    let ran = folder.run(&["a"]);
+    assert_eq!((ran.code, ran.out.as_str()), (0, ""));
+    assert!(ran.err.contains("a/arch.png: 1 of ") && ran.err.contains("which nobody can see"), "{}", ran.err);
+    let json: serde_json::Value = serde_json::from_str(&folder.run(&["a", "--json"]).out).expect("JSON");
+    let one = &json["snapshots"][0];
+    assert_eq!((&one["matches"], one["notes"].as_array().map(Vec::len)), (&true.into(), Some(1)));
+    // The facts decide.
+    folder.write("a/arch.json", &lintel("A lintel", 1.2));
+    assert_eq!(folder.run(&["a"]).code, 1);
+    folder.write("a/arch.json", &lintel("A lintel", 1.0));
+    for (count, by) in [(1, 17), (size / 10_000 + 1, 16)] {
+        fs::write(folder.path("a/arch.png"), &reference).expect("writable");
+        let (_, visible, _) = change(count, by);
+        fs::write(folder.path("a/arch.png"), &visible).expect("writable");
+        let ran = folder.run(&["a"]);
+        assert!(ran.code == 1 && ran.out.contains("pixels changed"), "{count} by {by}: {}{}", ran.out, ran.err);
+    }
+}
