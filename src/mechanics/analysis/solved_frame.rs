@@ -56,13 +56,13 @@ impl<'a> SolvedFrame<'a> {
     /// no single present value.
     ///
     /// ```
-    /// use drystone::{Analysis, Scene, analysis::{MarginKind, Options}};
+    /// use drystone::{Analysis, Scene, analysis::{MarginKind, MarginKinds, Options}};
     /// let number = |friction: f64, push: f64, kind: MarginKind| {
     ///     let scene = Scene::from_json(&format!(r#"{{ "drystone": 1, "friction": {friction},
     ///         "ground": [{{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }}],
     ///         "blocks": [{{ "id": "a", "polygon": [[1, 0], [4, 0], [4, 2], [1, 2]], "weight": 8 }}],
     ///         "loads": [{{ "block": "a", "force": [{push}, 0], "at": [1, 1] }}] }}"#))?;
-    ///     let analysis = Analysis::with(&scene, &Options::default().margins(true));
+    ///     let analysis = Analysis::with(&scene, &Options::default().margins(MarginKinds::ALL));
     ///     Ok::<f64, drystone::scene::SceneError>(analysis.at(0).signed_margin(kind).expect("decided"))
     /// };
     /// let near = |number: f64, expected: f64| assert!((number - expected).abs() < 1e-6, "{number}");

@@ -1,14 +1,14 @@
 //! The signed margin: a number for frames that stand and for frames that fall.
 
 use drystone::Analysis;
-use drystone::analysis::{MarginKind, Options, Verdict};
+use drystone::analysis::{MarginKind, MarginKinds, Options, Verdict};
 use serde_json::{Value, json};
 
 use crate::oracle::random;
 use crate::structure::{on_floor, rectangle, scene};
 
 fn number(file: &Value, kind: MarginKind) -> Option<f64> {
-    let analysis = Analysis::with(&scene(file), &Options::default().margins(drystone::analysis::MarginKinds::ALL));
+    let analysis = Analysis::with(scene(file), &Options::default().margins(MarginKinds::ALL));
     analysis.at(0).signed_margin(kind)
 }
 
@@ -70,7 +70,7 @@ fn a_margin_without_meaning_or_without_a_present_value() {
     for kind in [MarginKind::Friction, MarginKind::Robots] {
         assert_eq!(number(&standing, kind), None);
     }
-    let analysis = Analysis::with(&scene(&hanging), &Options::default());
+    let analysis = Analysis::with(scene(&hanging), &Options::default());
     assert_eq!(analysis.at(0).signed_margin(MarginKind::Tilt), None, "not requested");
 }
 
@@ -78,10 +78,7 @@ fn a_margin_without_meaning_or_without_a_present_value() {
 fn the_sign_is_that_of_the_verdict_in_random_scenes() {
     let mut counts = [0; 3];
     for n in 0..60 {
-        let analysis = Analysis::with(
-            &scene(&random::scene(n).1),
-            &Options::default().margins(drystone::analysis::MarginKinds::ALL),
-        );
+        let analysis = Analysis::with(scene(&random::scene(n).1), &Options::default().margins(MarginKinds::ALL));
         for solved in analysis.each() {
             for kind in [MarginKind::Tilt, MarginKind::LoadFactor, MarginKind::FrictionFactor, MarginKind::Kernel] {
                 let Some(number) = solved.signed_margin(kind) else { continue };

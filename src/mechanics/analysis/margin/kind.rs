@@ -323,7 +323,7 @@ impl MarginKind {
             MarginKind::HorizontalLoad => outward,
             MarginKind::Kernel if !is_upper => 1.0,
             MarginKind::Kernel if end < kernel => end / kernel - 1.0,
-            MarginKind::Kernel => (end - kernel) / (1.0 - kernel),
+            MarginKind::Kernel => (end - kernel) / (1.0 - kernel).max(f64::MIN_POSITIVE),
             _ => {
                 let ratio = if is_upper { end } else { 1.0 / end };
                 if ratio < 1.0 { ratio - 1.0 } else { 1.0 - 1.0 / ratio }

@@ -63,7 +63,7 @@ impl Margin {
 ///
 /// # Example
 /// ```
-/// use drystone::{Analysis, Scene, analysis::{MarginKind, Options}};
+/// use drystone::{Analysis, Scene, analysis::{MarginKind, MarginKinds, Options}};
 /// // A block 3 m wide and 2 m high would topple at a horizontal share of 1.5, but slides at its friction of 0.5.
 /// let scene = Scene::from_json(r#"{ "drystone": 1, "friction": 0.5,
 ///     "ground": [{ "polygon": [[0, 0], [9, 0], [9, -1], [0, -1]] }],
