@@ -252,7 +252,8 @@ def test_results_are_pickled_and_copied(lintel, steps, tmp_path):
     many = ds.check_many([lintel, {"blocks": [{"id": "a"}]}, steps], errors="keep")
     again = pickle.loads(pickle.dumps(many))
     assert again.verdicts == many.verdicts and str(again[1]) == str(many[1]) and again[1].problems == many[1].problems
-    assert again.table.to_dicts() == many.table.to_dicts()
+    # Forces of robots that a frame does not have are not numbers, which equal nothing.
+    assert repr(again.table.to_dicts()) == repr(many.table.to_dicts())
     frame = many[2].frames[1]
     other = pickle.loads(pickle.dumps(frame))
     assert (other.number, other.title, other.verdict) == (frame.number, frame.title, frame.verdict)
