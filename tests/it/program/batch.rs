@@ -146,6 +146,46 @@ fn fields_select_the_output() {
 
 /// For each list of margins, the margins of `batch` equal those of `check`.
 #[test]
+fn fields_ask_the_questions_whose_answers_they_select() {
+    let bench = Bench::new();
+    let input = tower("leans", 2, 0.3) + &tower("straight", 3, 0.0);
+    fs::write(bench.path("in.ndjson"), input).expect("written");
+    let answered = |options: &str| lines(&bench.run(&format!("batch in.ndjson {options}")).out);
+    for line in answered("--fields frames.capacity,frames.sensitivity,frames.placement.proved") {
+        let frame = &line["frames"][0];
+        assert!(frame["capacity"]["shape"].is_string() && frame["sensitivity"]["parameter"] == "tilt", "{line}");
+        assert!(frame["placement"]["proved"].is_number(), "{line}");
+    }
+    for line in answered("--sensitivity kernel --removable") {
+        let frame = &line["frames"][0];
+        assert!(frame["sensitivity"]["parameter"] == "kernel" && frame["removable"].is_array(), "{line}");
+        assert!(frame["capacity"].is_null() && frame["placement"].is_null(), "{line}");
+    }
+    // The blocks have numbers as names; only the second tower has a third one.
+    let of_block = answered("--capacity 3");
+    assert!(of_block[0]["problems"][0]["message"].as_str().expect("a problem").contains("no block 3"), "{of_block:?}");
+    assert_eq!(of_block[1]["frames"][0]["capacity"]["block"], "3");
+}
+
+#[test]
+fn commands_refuse_questions_that_they_do_not_answer() {
+    let bench = Bench::new();
+    for (line, why) in [
+        ("plan stands.json --placement", "unexpected argument '--placement'"),
+        ("export stands.json --removable -o out.dxf", "unexpected argument '--removable'"),
+        ("render stands.json --removable -o out.svg", "add --kind structure"),
+        ("render stands.json --sensitivity tilt -o out.svg", "add --kind sensitivity"),
+        ("batch stands.json --placement -o out.csv", "write an .ndjson file"),
+    ] {
+        let ran = bench.run(line);
+        assert!(ran.code == 2 && ran.err.contains(why), "{line}: {}", ran.err);
+    }
+    assert_eq!(bench.run("report stands.json --sensitivity tilt --capacity lintel -o out.md").code, 0);
+    let report = fs::read_to_string(bench.path("out.md")).expect("a report");
+    assert!(report.contains("Sensitivity of the tilt") && report.contains("Capacity: at "), "{report}");
+}
+
+#[test]
 fn margins_are_those_of_check() {
     let bench = Bench::new();
     for list in ["", "=friction,tilt", " load-factor", "=horizontal_load,kernel,robots"] {
