@@ -66,14 +66,13 @@ impl Figure for CarriedForces {
 
     fn words(&self, analysis: &Analysis, frame: usize, _: &Options) -> Vec<String> {
         let found = &analysis.frames[frame];
-        let sentences = match &found.capacity {
-            Some(capacity) => wording::capacity::sentences(analysis.given(), found.verdict, capacity),
+        match &found.capacity {
+            Some(capacity) => wording::capacity::clauses(analysis.given(), found.verdict, capacity),
             None if analysis.frames.iter().any(|f| f.capacity.is_some()) => {
-                "the block is not placed in this step".to_owned()
+                vec!["the block is not placed in this step".to_owned()]
             }
-            None => "the forces that a block can carry were not computed".to_owned(),
-        };
-        sentences.split("; ").map(str::to_owned).collect()
+            None => vec!["the forces that a block can carry were not computed".to_owned()],
+        }
     }
 
     fn above(&self, canvas: &mut Canvas<'_>) {

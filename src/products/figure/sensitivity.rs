@@ -369,8 +369,8 @@ impl Sketch<'_> {
                 let done = format!("load {by} {}", words::toward(direction));
                 (Some(at), done)
             }
-            Target::Weight(block) => {
-                let sign = if change.words.ends_with("heavier") { '+' } else { '−' };
+            Target::Weight(block, is_heavier) => {
+                let sign = if is_heavier { '+' } else { '−' };
                 let block = &scene.blocks[block.0];
                 let done = format!("weight of {} {sign}10 %", block.id);
                 (Some(block.centroid), done)

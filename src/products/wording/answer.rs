@@ -16,7 +16,7 @@ pub fn sentences(solved: SolvedFrame<'_>) -> Vec<(&'static str, String)> {
     if let Some(own) = &found.capacity {
         let governed = question::conditions(found, own.edges.iter().map(|edge| edge.condition));
         let governed = governed.map(|names| format!("; governed by {names}")).unwrap_or_default();
-        told.push(("capacity", format!("{}{governed}", capacity::sentences(scene, found.verdict, own))));
+        told.push(("capacity", format!("{}{governed}", capacity::clauses(scene, found.verdict, own).join("; "))));
     }
     told
 }

@@ -6,24 +6,25 @@ use crate::mechanics::analysis::{CapacityShape, Cases, FALLS, LoadCapacity, Marg
 use crate::mechanics::scene::Scene;
 use crate::text;
 
-/// Describes a load capacity in words: where the force acts, and how large it may be in each direction. `verdict` is
+/// Describes a load capacity in one clause or two, which a semicolon may join: where the force acts, and how large it may be in each direction. `verdict` is
 /// the verdict of the frame.
 ///
 /// The capacity is computed with the contacts as the scene gives them. If the verdict is undecided, it may depend on
 /// whether bodies with a narrow gap touch. The true capacity may then differ, so the text begins with `with the
 /// contacts as drawn`.
-pub fn sentences(scene: &Scene, verdict: Verdict, capacity: &LoadCapacity) -> String {
-    match verdict {
-        Verdict::Undecided => format!("with the contacts as drawn, {}", forces(scene, capacity)),
-        _ => forces(scene, capacity),
+pub fn clauses(scene: &Scene, verdict: Verdict, capacity: &LoadCapacity) -> Vec<String> {
+    let mut clauses = forces(scene, capacity);
+    if verdict == Verdict::Undecided {
+        clauses[0].insert_str(0, "with the contacts as drawn, ");
     }
+    clauses
 }
 
 /// Describes where the force acts, and how large it may be in each direction.
-fn forces(scene: &Scene, capacity: &LoadCapacity) -> String {
+fn forces(scene: &Scene, capacity: &LoadCapacity) -> Vec<String> {
     let place = place(scene, capacity);
     let for_all = for_all(&capacity.ranges);
-    match (capacity.shape(), sides(scene, capacity)) {
+    let clause = match (capacity.shape(), sides(scene, capacity)) {
         (CapacityShape::Empty, _) if capacity.cases == 1 => {
             format!("it {FALLS} under any force {place}")
         }
@@ -36,12 +37,14 @@ fn forces(scene: &Scene, capacity: &LoadCapacity) -> String {
                 _ => " in some combinations",
             };
             let ranges = ranges(scene, capacity);
-            match capacity.cases {
-                1 => format!("without a force {place} it {FALLS}; it {STANDS} with {ranges}{some}"),
-                _ => format!("without a force {place} it does not stand{for_all}; it does with {ranges}{some}"),
-            }
+            let [without, with] = match capacity.cases {
+                1 => [format!("without a force {place} it {FALLS}"), format!("it {STANDS} with")],
+                _ => [format!("without a force {place} it does not stand{for_all}"), "it does with".to_owned()],
+            };
+            return vec![without, format!("{with} {ranges}{some}")];
         }
-    }
+    };
+    vec![clause]
 }
 
 /// Describes where the force acts: at a point of a block, between two points, or as the force of a robot. Example:

@@ -24,8 +24,8 @@ const EFFECT_TOL: f64 = 1e-6;
 pub enum Target {
     /// A corner, by its index in [`EndSensitivity::corners`], along a unit vector.
     Corner(usize, Vector),
-    /// The weight of a block.
-    Weight(BlockId),
+    /// The weight of a block; true if it becomes heavier.
+    Weight(BlockId, bool),
     /// The friction of an interface, by its index.
     Friction(usize),
     /// The friction of all interfaces.
@@ -163,7 +163,7 @@ fn others(solved: SolvedFrame<'_>, end: &EndSensitivity, outward: f64) -> Vec<Ef
             let name = named(scene, BodyId::Block(*block));
             let how = if side > 0.0 { "heavier" } else { "lighter" };
             let words = format!("making {name} 10 % {how}");
-            add(Target::Weight(*block), words, amount, rate);
+            add(Target::Weight(*block, side > 0.0), words, amount, rate);
         }
     }
     let friction_change = |slope: Slope, what: String, target: Target| {
